@@ -25,7 +25,9 @@ code that reads the files (`python docs/make_keys_page.py`).
 A scenario has `schema = "stochfric.scenario/1"`, `title` (a text), the tables `[mechanism]`, `[law]` and `[simulation]`, and,
 where wanted, `[coefficients]` (how mu_s and mu_k vary), `[[effects]]` (what is added to the model, see [Effects](effects.md)),
 `[controller]` and `[uncertainty]`: a relative standard deviation for each number of the mechanism and the law that is not known
-exactly, such as `mass = 0.01`. The uncertainty of an `offset` is in its own unit.
+exactly, such as `mass = 0.01` for 1 %. The uncertainty of an `offset` is in its own unit. For `mjcf` the numbers are
+`mass`, `armature`, `gain`, `damping` and `offset`. One above 1 is an error (above 3 for an inertia, an armature, a damping and
+in a spring slider).
 
 A dataset has `schema = "stochfric.dataset/1"`, `title`, `scenario` (a file beside it, or the name of a bundled one) and
 `[[runs]]`; see [Measured data](datasets.md).

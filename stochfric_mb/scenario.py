@@ -18,7 +18,8 @@ from stochfric_mb.effects import Effect, effect_from_dict
 from stochfric_mb.effects.combine import combined_process, with_compliance
 from stochfric_mb.errors import InputError, SimulationError, StabilityError, require_name, require_number, require_text
 from stochfric_mb.laws import Law, law_class, make_law
-from stochfric_mb.mechanisms import MECHANISMS, BeltBox, Controller, Mechanism, Mjcf, controller_from_dict
+from stochfric_mb.mechanisms import MECHANISMS, BeltBox, Controller, Mechanism, Mjcf, SpringSlider, controller_from_dict
+from stochfric_mb.mechanisms.mjcf import CORRECTED
 
 if TYPE_CHECKING:
     from typing_extensions import TypeVar
@@ -36,6 +37,12 @@ MOST_STEPS = 1.0e11
 """Most steps of an engine [-]: they take more than a day at 1 us a step, which no engine beats."""
 MOST_PERIODS = 1.0e10
 """Most natural periods [-]: with ten steps each they are as long."""
+MOST_DOUBT, MOST_GUESSED = 1.0, 3.0
+"""Most relative deviation of a stated number, and of one that is often a guess (a rotor behind a gear) [-]."""
+GUESSED = ("inertia", "armature", "damping")
+"""Numbers that are often a guess; the stiffness of a spring slider is another."""
+ABSOLUTE = ("offset",)
+"""Numbers whose uncertainty is given in their own unit, since they may be stated as 0."""
 _TABLES = (
     "schema", "title", "mechanism", "controller", "law", "coefficients", "effects", "uncertainty", "simulation",
 )  # fmt: skip
@@ -62,7 +69,7 @@ class Scenario(Generic[M]):
     title: str = ""
     """A line for people."""
     uncertainty: Mapping[str, float] = dataclasses.field(default_factory=dict[str, float])
-    """Relative standard deviations of the stated numbers [-]."""
+    """Relative standard deviations of the stated numbers [-]; of an offset in its own unit."""
 
     def __post_init__(self) -> None:
         require_number("simulation.duration", self.duration, above=0.0, unit="s")
@@ -233,7 +240,9 @@ def load_any_scenario(source: str | Path, *, law: str | None = None, overrides: 
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise InputError(f"{path}: not a TOML file: {error}") from None
     if law is not None:
-        tables["law"] = _replace_law(tables.get("law", {}), law)
+        stated, doubts = tables.get("law", {}), tables.get("uncertainty", {})
+        tables["law"] = _replace_law(stated, law)
+        tables["uncertainty"] = {k: v for k, v in doubts.items() if k in tables["law"] or k not in stated}
     for setting in overrides:
         _override(tables, setting)
     try:
@@ -268,16 +277,18 @@ def any_scenario_from_dict(tables: Mapping[str, Any], *, folder: Path = Path()) 
     for key in simulation:
         require_name("key of simulation", key, ("duration", "output_step"))
     numbers = {k: require_number(f"simulation.{k}", _need(simulation, "simulation", k)) for k in ("duration", "output_step")}
+    mechanism, law = _mechanism(_table(tables, "mechanism"), folder), law_from_dict(_table(tables, "law"))
+    effects = _effects(tables.get("effects", []))
     return Scenario(
         title=require_text("title", tables.get("title", "")),
-        mechanism=_mechanism(_table(tables, "mechanism"), folder),
-        law=law_from_dict(_table(tables, "law")),
+        mechanism=mechanism,
+        law=law,
         process=process_from_dict(_table(tables, "coefficients"), numbers["output_step"], folder)
         if tables.get("coefficients")
         else None,
-        effects=_effects(tables.get("effects", [])),
+        effects=effects,
         controller=controller_from_dict(_table(tables, "controller")) if "controller" in tables else None,
-        uncertainty=_uncertainty(tables),
+        uncertainty=_uncertainty(tables, mechanism, (law, *effects)),
         **numbers,
     )
 
@@ -468,6 +479,22 @@ def _read_column(path: Path, column: Any) -> tuple[float, ...]:
     return tuple(values)
 
 
-def _uncertainty(tables: Mapping[str, Any]) -> dict[str, float]:
+def _uncertainty(tables: Mapping[str, Any], mechanism: Mechanism, others: Sequence[Law | Effect]) -> dict[str, float]:
+    """Return the uncertainties of numbers of the mechanism, the law and the effects."""
     table: Mapping[str, Any] = _table(tables, "uncertainty") if "uncertainty" in tables else {}
-    return {str(k): require_number(f"uncertainty.{k}", v, low=0.0) for k, v in table.items()}
+    known = set(CORRECTED) if isinstance(mechanism, Mjcf) else {f.name for f in dataclasses.fields(mechanism)}
+    known |= {f.name for other in others for f in dataclasses.fields(other)}
+    return {require_name("key of uncertainty", k, known): _doubt(k, v, mechanism) for k, v in table.items()}
+
+
+def _doubt(name: str, value: object, mechanism: Mechanism) -> float:
+    """Return the uncertainty of a number."""
+    doubt = require_number(f"uncertainty.{name}", value, low=0.0)
+    guessed = name in GUESSED or isinstance(mechanism, SpringSlider)
+    most = MOST_GUESSED if guessed else MOST_DOUBT
+    if name not in ABSOLUTE and doubt > most:
+        raise InputError(
+            f"uncertainty.{name} = {doubt:g} is {100.0 * doubt:g} % of {name}, over {100.0 * most:g} %: uncertainties are "
+            f"relative standard deviations; write {doubt / 100.0:g} for {doubt:g} %"
+        )
+    return doubt

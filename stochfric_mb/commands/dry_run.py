@@ -86,20 +86,35 @@ def _facts(data: Dataset) -> list[dict[str, Any]]:
     from stochfric_mb.mechanisms import BeltBox
 
     facts: list[dict[str, Any]] = []
+    mapped = _mapped(data)
     for run in data.runs:
+        columns = [*run.channels, *(name for name in mapped if name in run.covariates)]
         position = run.channels.get("position")
         slips = None
         if isinstance(data.scenario.mechanism, BeltBox) and position is not None:
             slips = len(slip_spans(position, run.sample_interval))
         facts.append({
             "name": run.name, "role": run.role, "seconds": float(run.time[-1] - run.time[0]), "rate": 1.0 / run.sample_interval,
-            "channels": {name: run.units.get(name, "") for name in run.channels}, "notes": list(run.notes), "slips": slips,
+            "channels": {name: run.units.get(name, "") for name in columns}, "notes": list(run.notes), "slips": slips,
         })  # fmt: skip
     return facts
 
 
+def _mapped(data: Dataset) -> list[str]:
+    """Return the columns, beside the known quantities, that a mechanism is told to read its joints from."""
+    from stochfric_mb.mechanisms import Mjcf
+
+    mechanism = data.scenario.mechanism
+    if not isinstance(mechanism, Mjcf):
+        return []
+    positions = [column for column in mechanism.positions.values() if isinstance(column, str)]
+    drives = [column for drive in mechanism.drives.values() for column in drive.columns]
+    pressed = [pair.normal_force for pair in mechanism.pairs.values() if pair.normal_force]
+    return list(dict.fromkeys([*positions, *drives, *pressed]))
+
+
 def _line(run: dict[str, Any]) -> str:
-    channels = ", ".join(f"{name} [{unit}]" for name, unit in run["channels"].items())
+    channels = ", ".join(f"{name} [{unit}]" if unit else name for name, unit in run["channels"].items())
     slips = "" if run["slips"] is None else f", {run['slips']} slips"
     notes = "".join(f"; {note}" for note in run["notes"])
     use = "used to fit" if run["role"] == "fit" else "held out"
@@ -127,11 +142,26 @@ def _off_speed(data: Dataset) -> list[str]:
 
 def _stated(data: Dataset) -> str:
     """Return how sure the scenario is of its numbers: what it does not name is believed as it stands."""
-    of, doubts = "N m" if getattr(data.scenario.mechanism, "rotational", False) else "N", data.scenario.uncertainty
+    from stochfric_mb.scenario import ABSOLUTE
+
+    of, doubts = _unit_of_offsets(data), data.scenario.uncertainty
     if not any(doubts.values()):
         return "No [uncertainty] is stated: every number of the scenario is taken as exact"
-    said = (f"{k} ± {v:.3g} {of}" if k == "offset" else f"{k} ± {100.0 * v:.3g} %" for k, v in doubts.items() if v)
+    said = (f"{k} ± {v:.3g} {of}" if k in ABSOLUTE else f"{k} ± {100.0 * v:.3g} %" for k, v in doubts.items() if v)
     return f"Stated: {', '.join(said)}; every other number of the scenario is taken as exact"
+
+
+def _unit_of_offsets(data: Dataset) -> str:
+    """Return the unit of an offset of the drive: of joints that are lines, axes, or both."""
+    from stochfric_mb.measurement.assemble import TURNS
+    from stochfric_mb.mechanisms import Mjcf
+
+    mechanism = data.scenario.mechanism
+    if not isinstance(mechanism, Mjcf):
+        return "N m" if getattr(mechanism, "rotational", False) else "N"
+    columns = [mechanism.positions.get(place) for place in mechanism.friction]
+    turns = {data.runs[0].units.get(c, "") in TURNS if isinstance(c, str) else False for c in columns}
+    return " or ".join(unit for turning, unit in ((False, "N"), (True, "N m")) if turning in turns)
 
 
 def _plan(data: Dataset, runs: list[dict[str, Any]]) -> list[str]:

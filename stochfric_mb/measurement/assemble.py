@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -21,6 +22,11 @@ Array = npt.NDArray[np.float64]
 
 MOVING = ("position", "velocity", "acceleration", "force", "torque")
 """Channels that stay at one number to the last digit only at rest, or when they are dead."""
+
+TURNS = {"rad": math.tau, "deg": 360.0, "degree": 360.0, "degrees": 360.0, "°": 360.0}
+"""Unit of an angle -> one turn."""
+WRAPPED = 0.9
+"""Jump between neighbouring readings from which an angle has started anew [turns]: what is left it may have moved meanwhile."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -89,6 +95,8 @@ def assemble(entry: RunEntry, *, rotational: bool | None) -> Run:
     for name in [k for k, v in covariates.items() if not np.isfinite(v).all()]:
         del covariates[name]
         notes.append(f"covariate {name!r} has missing values and is left out")
+    if rotational is not False:  # before interpolation, which would put readings between the two ends of the turn
+        notes += [said for group in (channels, covariates) for k in group if (said := _unwrapped(group, k, units.get(k, "")))]
     grid = uniform_grid(time, places, max_gap=entry.max_gap)
     if grid.note:
         notes.append(grid.note)
@@ -110,6 +118,16 @@ def assemble(entry: RunEntry, *, rotational: bool | None) -> Run:
         source=str(entry.file),
         notes=tuple(notes),
     )
+
+
+def _unwrapped(group: dict[str, Array], name: str, unit: str) -> str:
+    """Unwrap an angle in a group of columns if it starts anew after each turn; return what is said of that, empty if not."""
+    turn, values = TURNS.get(unit, math.inf), group[name]
+    jumps = int(np.count_nonzero(np.abs(np.diff(values)) > WRAPPED * turn))
+    if not jumps or np.ptp(values) > turn * (1.0 + 1.0e-6):
+        return ""
+    group[name] = np.unwrap(values, period=turn)
+    return f"{name} jumps by a full turn {jumps} times, as an angle does that starts anew after each: it is unwrapped"
 
 
 def _frozen(name: str, values: Array, time: Array, unit: str) -> str:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -44,6 +45,13 @@ REPEATED = 0.25
 """Different readings over all, below which a sensor reads in steps [-]."""
 LAGS = 8
 """Distances over which slopes are taken: powers of 2 [samples]."""
+
+GRAVITY = 9.81
+"""Acceleration of gravity [m/s^2]: a load in kg makes coefficients of friction so many times too large."""
+AS_GRAVITY = 0.1
+"""Largest relative distance of every coefficient from that many times the stated one [-]: tables are as good."""
+USUAL_FRICTION = (0.02, 1.5)
+"""Range of mu_s from lubricated bearings to rubber [-]; another one was no guess from a table."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -93,8 +101,10 @@ POWERS: dict[str, tuple[float, float, float]] = {
     "normal_force": (0.0, -1.0, 0.0),
 }
 """What may have a wrong unit -> powers of its factor in the three ratios: speed, length, time."""
+IN_DEGREES = 180.0 / math.pi
+"""Factor of an arc that was made of an angle in degrees, as if that were one in rad [-]."""
 FACTORS: dict[str, tuple[float, ...]] = {
-    "position": (1e3, 1e-3, 1e6, 1e-6, 1e2, 1e-2, 10.0, 0.1, 1.0 / 0.0254, 0.0254, 25.4, 1.0 / 25.4),
+    "position": (1e3, 1e-3, 1e6, 1e-6, 1e2, 1e-2, 10.0, 0.1, 1.0 / 0.0254, 0.0254, 25.4, 1.0 / 25.4, IN_DEGREES),
     "time": (1e3, 1e-3, 1e6, 1e-6, 60.0, 1.0 / 60.0),
     "belt_velocity": (1e3, 1e-3, 1e6, 1e-6, 1e2, 1e-2, 6e4, 60.0, 1.0 / 60.0),
     "stiffness": (1e-3, 1e-6),
@@ -102,7 +112,7 @@ FACTORS: dict[str, tuple[float, ...]] = {
     "normal_force": (1e3, 1e-3),
     "force": (1e3, 1e-3),
     "torque": (1e3, 1e-3, 1e2, 1e-2),
-    "angle": (180.0 / math.pi, math.pi / 180.0),
+    "angle": (IN_DEGREES, 1.0 / IN_DEGREES),
     "length": (1e3, 1e-3),
 }
 """What may have a wrong unit -> factors between the units in use."""
@@ -205,6 +215,23 @@ def likeliest(seen: Shown) -> Cause | None:
         (c for c in known if seen.fits(c) and (not c.time or seen.time - c.time * math.log10(c.factor) <= CORRECTED_TIME)),
         key=lambda cause: abs(seen.speed - cause.speed * math.log10(cause.factor)),
         default=None,
+    )
+
+
+def load_in_kilograms(shown: Sequence[float], stated: Sequence[float], load: float) -> str:
+    """Return what is said of a load [N] that is probably a mass in kg; empty where coefficients do not say so.
+
+    Args:
+        shown: coefficients of friction as a record has them, with this load [-].
+        stated: the same as stated, mu_s or the only one first [-].
+        load: the normal force stated [N].
+    """
+    usual = USUAL_FRICTION[0] <= stated[0] <= USUAL_FRICTION[1]
+    if not usual or any(abs(a / (GRAVITY * b) - 1.0) > AS_GRAVITY for a, b in zip(shown, stated, strict=True)):
+        return ""
+    return (
+        f"friction comes out at {shown[0] / stated[0]:.3g} times what is stated, as much as gravity in m/s^2: normal_force = "
+        f"{load:g} N is probably a mass in kg; write normal_force = {GRAVITY * load:.4g} (N)"
     )
 
 

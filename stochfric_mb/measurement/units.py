@@ -19,6 +19,14 @@ from stochfric_mb.measurement.quantities import Quantity
 
 Array = npt.NDArray[np.float64]
 
+ALONG_AN_ARC = "what turns moves along an arc, its angle in rad times the radius of the contact"
+"""What an angle is where friction acts along a line."""
+ON_THE_SPRING = (
+    "a load cell on the spring of a belt_box shows k x: of 1200 N/m, "
+    'scale = { position = 8.333e-4 }, which is 1/k, and units = { position = "m" }'
+)
+"""How a force is read as a position."""
+
 
 def to_si(values: Array, unit: str, quantity: Quantity, *, rotational: bool | None) -> tuple[Array, str]:
     """Return ``values`` in the SI unit of ``quantity``, and that unit; a temperature in K stays in K.
@@ -55,6 +63,8 @@ def to_si(values: Array, unit: str, quantity: Quantity, *, rotational: bool | No
     )
     lever = arm if targets == ("N",) and given.dimensionality == units.Unit("N*m").dimensionality else ""
     lever = _as_arc(quantity, targets) if _turns(units, given) else lever
+    if quantity.name == "position" and targets == ("m",) and given.dimensionality == units.Unit("N").dimensionality:
+        lever = f"; {ON_THE_SPRING}"
     if given.dimensionality == units.Unit("A").dimensionality and targets in (("N",), ("N m",)):
         lever = (
             f"; a motor's current is a force or torque once it is multiplied by its constant: of 0.1 {targets[0]}/A, "
@@ -68,7 +78,7 @@ def _as_arc(quantity: Quantity, targets: Sequence[str]) -> str:
     if len(targets) != 1 or not targets[0].startswith("m"):
         return ""
     return (
-        "; what turns moves along an arc, its angle in rad times the radius of the contact: of 40 mm, "
+        f"; {ALONG_AN_ARC}: of 40 mm, "
         f'scale = {{ {quantity.name} = 0.04 }} and units = {{ {quantity.name} = "{targets[0]}" }} '
         '(docs/datasets.md, "A rig that turns")'
     )

@@ -10,7 +10,8 @@ import numpy as np
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.run import Run
 from stochfric_mb.measurement.sampling import FROZEN, longest_still
-from stochfric_mb.measurement.scales import FACTORS, SPEED_FITS, Array, Cause, Shown, inertia, likeliest, shown
+from stochfric_mb.measurement.scales import FACTORS, IN_DEGREES, SPEED_FITS, Array, Cause, Shown, inertia, likeliest, shown
+from stochfric_mb.measurement.units import ALONG_AN_ARC
 from stochfric_mb.mechanisms import BeltBox, HingePendulum, PrismaticJoint
 from stochfric_mb.scenario import Scenario
 
@@ -56,6 +57,8 @@ POWERS_ABOUT: dict[str, tuple[float, float]] = {
     "angle": (-1.0, 0.0), "time": (2.0, 0.0), "mass": (-1.0, 0.0), "length": (-2.0, 0.0), "torque": (1.0, 1.0),
 }  # fmt: skip
 """The same at a hinge, whose inertia is m l^2 and some of its own."""
+PAGE = 'docs/datasets.md, "A rig that turns"'
+"""Where arcs are explained."""
 HALF_WIDTH = 8
 """Half the length of the window over which a position changes [samples]."""
 
@@ -283,6 +286,9 @@ def _wrong_unit(run: Run, box: BeltBox, seen: Shown, cause: Cause, stated_in: st
         really = _unit_of(sizes, sizes.get(label, 1.0) / cause.factor)
         remedy = f"write its header as '{cause.name} [{really}]', or give units = {{ {cause.name} = \"{really}\" }}"
         place = f"{run.source}: column {cause.name} [{label}]"
+        if cause.name == "position" and cause.factor == IN_DEGREES:
+            really = "deg"
+            remedy = f"{ALONG_AN_ARC}: multiply scale.position by pi / 180 ({PAGE})"
     else:
         value = float(getattr(box, cause.name))
         sizes = STATED_UNITS[cause.name]

@@ -19,6 +19,9 @@ from stochfric_mb.mechanisms.mjcf_parts import (
     table_of,
 )
 
+CORRECTED = {"mass": "-", "armature": "-", "gain": "-", "damping": "-", "offset": "N"}
+"""What data may correct: factors on masses, armature, drive and damping of the joint, and an offset of its drive."""
+
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class Mjcf:

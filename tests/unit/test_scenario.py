@@ -9,7 +9,7 @@ import tomli_w
 
 from stochfric_mb import Havsin, InputError, Knots, SimulationError, StabilityError, load_scenario
 from stochfric_mb.coefficients import Empirical, TruncatedNormal
-from stochfric_mb.scenario import bundled_scenarios, fitting_step, scenario_from_dict
+from stochfric_mb.scenario import any_scenario_from_dict, bundled_scenarios, fitting_step, scenario_from_dict
 
 NAMES = ("kang2015_table1", "kang2015_table2_13_8", "kang2015_table2_18_7")
 
@@ -147,3 +147,58 @@ def test_require_sane():
     for broken in (2.8, -2.8, float("nan"), float("inf")):
         with pytest.raises(SimulationError, match=r"engine: the box is at x = .*lower dt = 0\.0001 s"):
             s.require_sane("engine", 1.0, broken, 1e-4)
+
+
+BELT_NUMBERS = {"mass": 1.0, "damping": 1.0, "stiffness": 100.0, "normal_force": 10.0, "belt_velocity": 1.0e-3}
+ELBOW = {"file": "model.xml", "friction": {"elbow": 1.0}, "positions": {"elbow": "position"}}
+
+
+def doubted(mechanism, uncertainty, law="coulomb"):
+    """Return the content of a scenario file that states how sure it is of its numbers."""
+    return {
+        "schema": "stochfric.scenario/1",
+        "mechanism": mechanism,
+        "law": {"kind": law, "mu_s": 0.5, "mu_k": 0.4},
+        "uncertainty": uncertainty,
+        "simulation": {"duration": 1.0, "output_step": 1.0e-3},
+    }
+
+
+@pytest.mark.parametrize(
+    ("uncertainty", "words"),
+    [
+        ({"dampening": 0.4}, "unknown key of uncertainty 'dampening'; did you mean 'damping'?"),
+        ({"mas": 0.03}, "did you mean 'mass'?"),
+        ({"stribeck_velocity": 0.1}, "unknown key of uncertainty 'stribeck_velocity'"),
+        ({"stiffness": 5.0}, "over 100 %: uncertainties are relative standard deviations; write 0.05 for 5 %"),
+        ({"damping": 30.0}, "write 0.3 for 30 %"),
+    ],
+)
+def test_an_uncertainty_that_no_number_has_or_in_percent_is_refused(uncertainty, words):
+    with pytest.raises(InputError, match=re.escape(words)):
+        scenario_from_dict(doubted({"kind": "belt_box", **BELT_NUMBERS}, uncertainty))
+
+
+@pytest.mark.parametrize(
+    ("mechanism", "law", "uncertainty"),
+    [
+        ({"kind": "belt_box", **BELT_NUMBERS}, "stribeck", {"belt_velocity": 0.1, "damping": 1.5, "stribeck_velocity": 0.3}),
+        ({"kind": "hinge_pendulum", "mass": 1.0, "length": 0.2, "normal_force": 1.0}, "coulomb", {"inertia": 3.0}),
+        ({"kind": "spring_slider", "stiffness": 2000.0}, "coulomb", {"stiffness": 3.0, "mu_s": 0.1}),
+        ({"kind": "mjcf", **ELBOW}, "coulomb", {"mass": 0.1, "armature": 1.0, "gain": 0.1, "damping": 0.5, "offset": 30.0}),
+    ],
+)
+def test_uncertainties_of_numbers_that_there_are_stay(mechanism, law, uncertainty):
+    assert any_scenario_from_dict(doubted(mechanism, uncertainty, law)).uncertainty == uncertainty
+
+
+def test_an_uncertainty_of_a_joint_is_asked_by_number():
+    with pytest.raises(InputError, match=r"unknown key of uncertainty 'elbow'\. Known: armature, damping, gain, mass"):
+        any_scenario_from_dict(doubted({"kind": "mjcf", **ELBOW}, {"elbow": 0.1}))
+
+
+def test_a_law_that_replaces_the_files_leaves_out_what_only_that_one_has(tmp_path):
+    content = doubted({"kind": "belt_box", **BELT_NUMBERS}, {"stribeck_velocity": 0.3, "mass": 0.1}, "stribeck")
+    content["law"]["stribeck_velocity"] = 2.0e-3
+    (tmp_path / "rig.toml").write_text(tomli_w.dumps(content))
+    assert load_scenario(tmp_path / "rig.toml", law="coulomb").uncertainty == {"mass": 0.1}

@@ -16,6 +16,7 @@ from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalan
 from stochfric_mb.discovery.driven_joint.balance.late_channel import brought_forward, late_channel
 from stochfric_mb.discovery.driven_joint.balance.readings import mended
 from stochfric_mb.discovery.driven_joint.balance.timing import NAMED
+from stochfric_mb.discovery.driven_joint.balance.weak_form import least_width
 from stochfric_mb.discovery.driven_joint.decision.adequacy import drawn_by_one, drawn_by_two, endless, inadequate
 from stochfric_mb.discovery.driven_joint.decision.carry_over import with_idle, with_unnamed
 from stochfric_mb.discovery.driven_joint.decision.selection import Stage
@@ -300,7 +301,31 @@ def _require_sliding(source: Balances) -> None:
         raise InputError(
             f"{where} slides one way in only {_windows(balances)} windows of the runs with role {role!r} ({runs}); at least "
             f"{FEWEST} are needed: record longer or livelier motion, or check the units of position and load"
+            f"{_widened(balances, source.dataset.scenario.law.mu_k * source.places[name])}"
         )
+
+
+def _widened(balances: Sequence[ForceBalance], friction: float) -> str:
+    """Return how wide the widest windows are, and whose noise made them so; empty: they are the narrowest.
+
+    Args:
+        balances: the balances of a place.
+        friction: what is stated of its friction [N or N m].
+    """
+    widest = max(balances, key=lambda b: b.window.half_width)
+    seen = widest.window
+    narrow = dataclasses.replace(seen, half_width=least_width(seen.count) * seen.interval)
+    if not widest.white or seen.half_width <= narrow.half_width:
+        return ""
+    noise = {derivative: narrow.gain(derivative) * size for derivative, size in widest.white.items()}
+    loudest = max(noise, key=lambda derivative: noise[derivative])
+    wide, least = (2.0 * window.half_width for window in (seen, narrow))
+    return (
+        f". Its windows are up to {wide:.2g} s wide ({least:.2g} s without noise), and it has to slide one way through all of "
+        f"one: in narrow ones the noise of the {'position' if loudest else 'drive'} is {noise[loudest]:.3g} {widest.unit}, "
+        f"beside {friction:.3g} {widest.unit} of friction; record it with less noise (a controller that chatters is part of "
+        "that), or slides that last longer"
+    )
 
 
 def _hardly_sliding(source: Balances) -> tuple[str, str, list[ForceBalance]] | None:

@@ -19,6 +19,7 @@ from stochfric_mb.discovery.stick_slip.validation.feature_skill import Gaps
 from stochfric_mb.effects import effect_class
 from stochfric_mb.effects.traits import BELT
 from stochfric_mb.measurement.dataset import Dataset
+from stochfric_mb.measurement.scales import load_in_kilograms
 
 NOT_IN_AUGMENTED = "not_in_augmented"
 """Name under which the details hold the effects that augmented.toml does not."""
@@ -51,8 +52,16 @@ def notes(study: Study, decision: Decision, model: Model, gaps: Gaps, given: Dat
         *_seen_in_forces(gaps.forecasts, gaps.forces),
         *([] if MORE_MISSING in details or not decision.named else _left_in_forces(gaps.forces)),
         *(f"{name} is {abs(by):.2g} stated standard deviations off from what is stated" for name, by in beyond.items()),
+        *filter(None, [_in_kilograms(model, given)]),
         *([] if given.scenario.uncertainty else [NOT_STATED]),
     )
+
+
+def _in_kilograms(model: Model, given: Dataset) -> str:
+    """Return that the normal force is probably a mass in kg; empty where the coefficients of friction do not say so."""
+    scenario = given.scenario
+    load = given.fit[0].mechanism(scenario).normal_force
+    return load_in_kilograms((model.law.mu_s, model.law.mu_k), (scenario.law.mu_s, scenario.law.mu_k), load)
 
 
 def _of_several_tones(model: Model) -> list[str]:

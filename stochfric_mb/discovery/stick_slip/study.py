@@ -23,6 +23,7 @@ from stochfric_mb.discovery.stick_slip.simulation.prior_model import prior_model
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.dataset import Dataset, Run
 from stochfric_mb.measurement.temperature import temperature_of
+from stochfric_mb.measurement.units import ON_THE_SPRING
 
 RECALIBRATIONS = 2
 """Further calibrations at most."""
@@ -88,10 +89,23 @@ def record_of(run: Run, dataset: Dataset) -> Record:
     if "position" not in run.channels:
         raise InputError(
             f"run {run.name}: no column 'position'; discovery on a belt-box needs the position of the box, "
-            "such as a column 'position [m]'"
+            f"such as a column 'position [m]'{_instead(run)}"
         )
     mechanism = run.mechanism(dataset.scenario)
     return make_record(run.name, run.time, run.channels["position"], mechanism, temperature_of(run))
+
+
+def _instead(run: Run) -> str:
+    """Return how what a run holds is read as a position, or why it is not."""
+    force = next((k for k in ("force", "friction_force") if k in run.channels), None)
+    if force is not None:
+        return f"; {ON_THE_SPRING}: name the column of {force} in columns = {{ position = ... }}"
+    if "velocity" in run.channels:
+        return (
+            "; a velocity alone does not do, since it does not say where the spring is slack: integrate it from a rest with "
+            "a slack spring and give that as the position, or record the position"
+        )
+    return ""
 
 
 def study(dataset: Dataset, *, progress: Progress = lambda _: None) -> Study | None:

@@ -71,8 +71,8 @@ def read(path: Path, *, skip_rows: int = 0) -> Table:
         header = [*header, ""]  # rows end with a delimiter, the header does not
     if header and len(header) != width:
         raise InputError(
-            f"{path}: {len(header)} names in the header, line {rows[0][0]}, but {width} columns in line {body[0][0]}; correct "
-            "the header, or leave out the lines before it with skip_rows"
+            f"{path}: {len(header)} names in the header, line {rows[0][0]}, but {width} columns in most lines under it; "
+            f"correct the header, or leave out the lines before it with skip_rows{_skipped(rows, width, dialect)}"
         )
     values = _values(path, body, width, dialect)
     names, units = _names(path, header, width)
@@ -88,6 +88,21 @@ def read(path: Path, *, skip_rows: int = 0) -> Table:
         rows=np.array([number for number, _ in body], dtype=np.int64),
         row_word="line",
     )
+
+
+def _skipped(rows: list[tuple[int, str]], width: int, dialect: Dialect) -> str:
+    """Return the skip_rows that leave a table with its header, as a text; empty where no line but the first is its header."""
+    begin = 0
+    for number, line in rows:
+        fields = _fields(line, dialect)
+        words = sum(_number(field, dialect) is None for field in fields)
+        if len(fields) != width or words < width:  # neither a header nor the units under it
+            if len(fields) == width and not words:
+                break
+            begin = 0
+        elif not begin:
+            begin = number
+    return f" = {begin - 1}" if begin > rows[0][0] else ""
 
 
 def _require_lines(path: Path) -> None:

@@ -217,6 +217,18 @@ def test_a_joint_that_rests_is_refused():
         joint_outcome(dataclasses.replace(data, runs=runs))
 
 
+def test_a_loud_drive_is_told_where_it_leaves_no_window_in_which_the_joint_slides():
+    data = pair(coulomb)
+    loud = [{**r.channels, "force": r.channels["force"] + noise_of(r, 300.0)} for r in data.runs]
+    runs = tuple(dataclasses.replace(r, channels=c) for r, c in zip(data.runs, loud, strict=True))
+    with pytest.raises(InputError, match=r"windows are up to .* without noise.*noise of the drive is .* N, beside .* N of"):
+        joint_outcome(dataclasses.replace(data, runs=runs))
+
+
+def noise_of(run, size):
+    return size * np.random.default_rng(3).standard_normal(len(run.time))
+
+
 def test_without_uncertainty_the_mechanism_is_taken_as_exact():
     outcome = joint_outcome(dataclasses.replace(pair(grease), scenario=scenario(uncertainty={})))
     assert [e.kind for e in outcome.result.effects] == ["viscous_friction"]

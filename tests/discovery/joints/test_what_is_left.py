@@ -77,6 +77,12 @@ def test_friction_beyond_its_belief_is_a_finding(deviations):
     assert named.parameters["mu_k"].value == pytest.approx(0.1 * (1.0 + BELIEVED["mu_k"] * deviations), rel=0.01)
 
 
+@pytest.mark.parametrize(("factor", "said"), [(9.81, True), (5.0, False)])
+def test_a_load_in_kilograms_is_told(factor, said):
+    notes = joint_outcome(off_by((factor - 1.0) / BELIEVED["mu_k"])).result.notes
+    assert any("is probably a mass in kg" in note for note in notes) == said
+
+
 def test_friction_of_which_nothing_is_believed_may_be_anything():
     measured = off_by(10.0)
     scenario = dataclasses.replace(measured.scenario, uncertainty={"mass": 0.05, "offset": 0.1})

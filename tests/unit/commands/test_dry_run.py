@@ -231,9 +231,34 @@ def test_a_drive_that_is_dead_or_turned_round_is_refused(tmp_path, factor, words
     [
         ("", "No [uncertainty] is stated: every number of the scenario is taken as exact"),
         ("[uncertainty]\nmass = 0.0\n", "No [uncertainty] is stated: every number of the scenario is taken as exact"),
-        ("[uncertainty]\nmass = 5.0\noffset = 0.5\n", "Stated: mass ± 500 %, offset ± 0.5 N; every other number"),
+        ("[uncertainty]\nmass = 0.5\noffset = 0.5\n", "Stated: mass ± 50 %, offset ± 0.5 N; every other number"),
     ],
 )
 def test_how_sure_the_scenario_is_of_its_numbers_is_said(tmp_path, table, said):
     kind, numbers, _, column, _ = JOINTS[0]
     assert said in look_at_joint(tmp_path, kind, f"{numbers}\n{table}", column).output
+
+
+MODEL = """<mujoco><worldbody><body>
+<joint name="{name}" type="{type}" axis="0 0 1"/><geom type="box" size="0.1 0.1 0.1" mass="5"/>
+</body></worldbody></mujoco>
+"""
+
+
+@pytest.mark.parametrize(
+    ("name", "kind", "unit", "of", "drive"), [("lid", "hinge", "deg", "N m", "torque"), ("rod", "slide", "mm", "N", "force")]
+)
+def test_columns_that_joints_of_a_model_are_read_from_are_listed(tmp_path, name, kind, unit, of, drive):
+    pytest.importorskip("mujoco", reason="the model is one of MuJoCo's")
+    (tmp_path / "model.xml").write_text(MODEL.format(name=name, type=kind))
+    reads = f'positions = {{ {name} = "where" }}\ndrives = {{ {name} = "{drive}" }}'
+    numbers = f'file = "model.xml"\nfriction = {{ {name} = 4.0 }}\n{reads}'
+    (tmp_path / "rig.toml").write_text(JOINT.format(kind="mjcf", numbers=f"{numbers}\n[uncertainty]\noffset = 0.3\n"))
+    time = np.arange(9000) * 1e-3
+    columns = np.column_stack([time, 20.0 * np.sin(time), np.cos(time)])
+    head = f"time [s],where [{unit}],{drive} [{of}]"
+    np.savetxt(tmp_path / "run.csv", columns, header=head, comments="", delimiter=",")
+    done = invoke("discover", tmp_path / "run.csv", "--scenario", tmp_path / "rig.toml", "--dry-run", "--out", tmp_path / "raw")
+    said = " ".join(done.output.split())
+    assert f"{drive} [{of}], where [{unit}]" in said
+    assert f"offset ± 0.3 {of};" in said

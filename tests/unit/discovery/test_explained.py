@@ -23,6 +23,7 @@ from stochfric_mb.discovery.stick_slip.validation.explained import (
     explained_with_its_form,
     felt,
 )
+from stochfric_mb.discovery.stick_slip.validation.feature_skill import Gaps
 from stochfric_mb.effects import make_effect
 
 
@@ -165,7 +166,7 @@ def test_a_name_explains_more_of_held_out_runs_than_it_leaves(kind, closed, stan
     off = 1.0 if closed is None else 3.0  # a recalibrated model at the floor leaves nothing to close
     gap = Gap("crps_one_cycle", "m", True, 4.0, off, off - 2.0 * (closed or 0.0), 1.0)
     assert gap.closed == (None if closed is None else pytest.approx(closed))
-    monkeypatch.setattr(workflow, "_gaps", lambda *_: (gap, None))
+    monkeypatch.setattr(workflow, "_gaps", lambda *_: Gaps(gap))
     decision = decided(kind)
     answer = Answer(decision, None, decision.model)
     judged = workflow._explaining_held_out(answer, SimpleNamespace(model=None), SimpleNamespace(model=None), None)

@@ -8,6 +8,7 @@ import pytest
 from stochfric_mb.discovery.criteria import FEWEST_SAMPLES
 from stochfric_mb.discovery.stick_slip.records.preconditions import require_driven, require_usable
 from stochfric_mb.discovery.stick_slip.records.record import make_record
+from stochfric_mb.discovery.stick_slip.study import record_of
 from stochfric_mb.errors import InputError
 from stochfric_mb.mechanisms import BeltBox
 
@@ -36,6 +37,7 @@ def test_coarse_samples_and_a_belt_at_rest_are_refused(interval, belt, said):
         (-8.0, -5.0, "same positive direction"),
         (8.0, -0.1, "same positive direction"),
         (470.0, 465.0, "36.2 times the normal force, with mu_s stated as 0.45; count the position from where the spring is"),
+        (13.0 * 9.81 * 0.45, 40.0, "normal_force = 13 N is probably a mass in kg; write normal_force = 127.5"),
     ],
 )
 def test_friction_against_the_belt_and_a_zero_that_is_off_are_refused(onset, kinetic, remedy):
@@ -48,6 +50,19 @@ def test_friction_against_the_belt_and_a_zero_that_is_off_are_refused(onset, kin
 def test_rubber_may_hold_more_than_its_load():
     record = SimpleNamespace(name="a", mechanism=BeltBox(**BOX, belt_velocity=2e-3))
     require_driven([SimpleNamespace(record=record, onset_force=np.full(20, 26.0), moments=np.full((20, 7), 20.0))], 0.45)
+
+
+@pytest.mark.parametrize(
+    ("channel", "said"),
+    [
+        ("force", r"a load cell on the spring of a belt_box shows k x: .* which is 1/k, .*name the column of force"),
+        ("velocity", r"a velocity alone does not do.*integrate it from a rest"),
+        ("temperature", r"such as a column 'position \[m\]'$"),
+    ],
+)
+def test_what_a_record_without_a_position_may_have_instead(channel, said):
+    with pytest.raises(InputError, match=said):
+        record_of(SimpleNamespace(name="a", channels={channel: np.zeros(9)}), SimpleNamespace(scenario=None))
 
 
 @pytest.mark.parametrize("rate", [200.0, 1000.0])

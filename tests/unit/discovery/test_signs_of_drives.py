@@ -14,12 +14,12 @@ GAIN = 5.4
 """Torque over current of the motor [N m/A]."""
 
 
-def asked(factor: float) -> None:
-    """Ask whether friction takes energy out of a sine, with a torque that is ``factor`` times the right one."""
+def asked(factor: float, angle: float = 1.0) -> None:
+    """Ask whether friction takes energy out of a sine, with a torque that is ``factor`` times the right one, and an angle."""
     t = np.arange(round(12.0 * RATE)) / RATE
     q, v, a = -np.cos(2.0 * t), 2.0 * np.sin(2.0 * t), 4.0 * np.cos(2.0 * t)
     torque = INERTIA * a + DAMPING * v + FRICTION * np.sign(v)
-    channels = {"position": q, "torque": factor * torque}
+    channels = {"position": angle * q, "torque": factor * torque}
     mechanism = {"kind": "hinge_pendulum", "mass": 1e-3, "length": 1e-3, "inertia": INERTIA, "damping": DAMPING}
     tables = {
         "schema": "stochfric.scenario/1",
@@ -44,3 +44,10 @@ def test_a_drive_that_is_turned_round_has_the_wrong_sign():
 def test_a_current_in_the_place_of_a_torque_has_the_wrong_scale():
     with pytest.raises(InputError, match=r"5.4 times the driving force .* give scale = \{ torque = 5.4 \}"):
         asked(1.0 / GAIN)
+
+
+def test_where_both_signs_bring_in_energy_it_is_not_the_sign():
+    """Degrees that are labelled rad: with the stated damping friction would drive, whatever the torque."""
+    with pytest.raises(InputError, match=r"the sign is not what is wrong: columns may be swapped, a unit wrong") as caught:
+        asked(-1.0, 180.0 / np.pi)
+    assert "torque = -1" not in str(caught.value)

@@ -9,7 +9,7 @@ import pytest
 from stochfric_mb import InputError, load_scenario
 from stochfric_mb.measurement import load_dataset
 from stochfric_mb.measurement.assemble import RunEntry, assemble
-from stochfric_mb.scenario import bundled_scenarios
+from stochfric_mb.scenario import any_scenario_from_dict, bundled_scenarios
 
 from .files import POSITION, TIME, csv, dataset, measured
 
@@ -169,6 +169,10 @@ def test_temperature_keeps_its_scale(rig):
         ('units = { force = "N" }', r"unknown quantity in units .*'force'"),
         ("units = { position = 3 }", r"units\.position = 3; give a unit in quotes"),
         ('units = { position = "N" }', r"run\.csv: unit 'N' is not one of position, which is kept in m .*; give m, mm"),
+        (
+            'units = { position = "kN" }',
+            r"a load cell on the spring .* shows k x: .* scale = \{ position = 8.333e-4 \}, which is 1/k",
+        ),
         (
             'units = { position = "deg" }',
             r"'deg' is not one of position, which is kept in m \(this mechanism moves along a line\)",
@@ -426,3 +430,40 @@ def test_a_model_with_joints_of_both_kinds_takes_lengths_and_angles(tmp_path):
         assemble(RunEntry(file=file, name="run"), rotational=None)
     with pytest.raises(InputError, match=r"moves along a line\); give m, mm, um$"):
         assemble(RunEntry(file=file, name="run"), rotational=False)
+
+
+def turning(folder, mechanism, **columns):
+    """Return the run of a rig that turns, from these columns."""
+    tables = {
+        "schema": "stochfric.scenario/1",
+        "mechanism": mechanism,
+        "law": {"kind": "coulomb", "mu_s": 0.5, "mu_k": 0.4},
+        "simulation": {"duration": 1.0, "output_step": 1.0e-3},
+    }
+    time = np.arange(len(next(iter(columns.values())))) * 1.0e-3
+    return load_dataset(csv(folder / "run.csv", time__s=time, **columns), any_scenario_from_dict(tables)).fit[0]
+
+
+HINGE = {"kind": "hinge_pendulum", "mass": 1.0, "length": 0.2, "normal_force": 1.0}
+TABLE = {"kind": "mjcf", "file": "table.xml", "friction": {"a": 1.0}, "positions": {"a": "angle"}, "drives": {"a": "torque"}}
+
+
+@pytest.mark.parametrize("low", [0.0, -180.0])
+def test_an_angle_that_starts_anew_after_each_turn_is_unwrapped(tmp_path, low):
+    angle = 1500.0 * np.sin(np.linspace(0.0, 6.0, 3000)) + np.random.default_rng(1).normal(0.0, 0.05, 3000)
+    wrapped, torque = (angle - low) % 360.0 + low, np.sin(angle)
+    run = turning(tmp_path, HINGE, position__deg=wrapped, torque__Nm=torque)
+    off = run.channels["position"] - np.deg2rad(angle[:2000])  # the rest is held out
+    assert np.ptp(off) < 1e-9
+    assert any("position jumps by a full turn" in note and "it is unwrapped" in note for note in run.notes)
+    of_joint = turning(tmp_path, TABLE, angle__deg=wrapped, torque__Nm=torque)
+    assert np.ptp(of_joint.covariates["angle"] - angle[:2000]) < 1e-9
+
+
+def test_stray_readings_and_angles_of_many_turns_are_no_wrapping(tmp_path):
+    angle = 3.0 * np.sin(np.linspace(0.0, 6.0, 3000))
+    angle[[700, 1900]] += 4.0
+    for position in (angle, 10.0 * angle):
+        run = turning(tmp_path, HINGE, position__rad=position, torque__Nm=np.sin(angle))
+        assert run.channels["position"] == pytest.approx(position[:2000], abs=1e-12)
+        assert not any("turn" in note for note in run.notes)

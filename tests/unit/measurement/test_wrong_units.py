@@ -10,7 +10,7 @@ import pytest
 
 from stochfric_mb import InputError, load_scenario
 from stochfric_mb.measurement import load_dataset
-from stochfric_mb.measurement.scales import Shown, likeliest, slip_time, stuck_speed
+from stochfric_mb.measurement.scales import Shown, likeliest, load_in_kilograms, slip_time, stuck_speed
 from stochfric_mb.reference import simulate
 
 from .files import csv, measured
@@ -61,6 +61,13 @@ def test_a_position_in_another_unit_than_its_label(tmp_path, motion, truth, unit
     text = str(caught.value)
     assert text.startswith(f"{tmp_path / 'run.csv'}: column position [{unit}] is {factor} what fits")
     assert f"write its header as 'position [{really}]'" in text
+
+
+def test_an_arc_of_degrees_is_told_from_inches(tmp_path, motion, truth):
+    with pytest.raises(
+        InputError, match=r"57\.3 times what fits.* probably in deg; what turns .*multiply scale.position by pi / 180"
+    ):
+        _load(tmp_path, motion, truth, scale=180.0 / math.pi)
 
 
 def test_a_time_in_another_unit_than_its_label(tmp_path, motion, truth):
@@ -372,3 +379,20 @@ def test_the_speed_of_stick_is_not_that_at_which_a_coarse_sensor_counts():
     speed, lag = stuck_speed(50e-6 * np.round(position / 50e-6), 2e-3)
     assert speed == pytest.approx(5e-3, rel=0.05)
     assert stuck_speed(position, 2e-3)[1] < lag
+
+
+@pytest.mark.parametrize(
+    ("shown", "stated", "said"),
+    [
+        ((1.78, 1.37), (0.18, 0.14), True),
+        ((0.0185, 0.0185), (0.18, 0.14), False),
+        ((0.9, 0.7), (0.18, 0.14), False),  # five times
+        ((2.25, 1.75), (0.18, 0.14), False),
+        ((1.78, 0.9), (0.18, 0.14), False),  # a wrong load moves both alike
+        ((0.0981, 0.0981), (0.01, 0.01), False),  # that was stated for something else
+    ],
+)
+def test_a_load_in_kilograms_is_told_by_both_coefficients(shown, stated, said):
+    assert (
+        "normal_force = 306 N is probably a mass in kg; write normal_force = 3002" in load_in_kilograms(shown, stated, 306.0)
+    ) == said

@@ -26,6 +26,7 @@ from stochfric_mb.effects.load_side import MotorMotion
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.run import Run
 from stochfric_mb.mechanisms import Cascade, HingePendulum, PrismaticJoint
+from stochfric_mb.scenario import ABSOLUTE
 
 Array = npt.NDArray[np.float64]
 Joint = PrismaticJoint | HingePendulum
@@ -45,8 +46,6 @@ UNITS = {
     },
 }  # fmt: skip
 """Numbers of the mechanisms that may be corrected, and their units."""
-ABSOLUTE = ("offset",)
-"""Numbers whose uncertainty is given in their own unit, since they may be stated as 0."""
 POSITIVE = ("mass", "inertia", "damping", "piston_area", DRIVE_FACTOR)
 """Numbers that cannot be negative."""
 HELD = 0.5

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from stochfric_mb.discovery.driven_joint.balance.force_balance import PAYLOADS
+from stochfric_mb.discovery.driven_joint.decision.estimates import mechanism_estimates
 from stochfric_mb.discovery.driven_joint.decision.findings import in_place
 from stochfric_mb.discovery.driven_joint.decision.smooth_dependence import SIGNED
 from stochfric_mb.discovery.driven_joint.fit.evidence import scatter, settings_of
@@ -14,6 +15,7 @@ from stochfric_mb.discovery.driven_joint.fit.gains import hidden_share
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
 from stochfric_mb.discovery.driven_joint.simulation.scores import AHEAD, FLOOR, noise_floor
 from stochfric_mb.effects import words_of
+from stochfric_mb.measurement.scales import load_in_kilograms
 
 IMITATED = 0.99
 """Part of an effect's change of friction that other numbers imitate, from which it cannot be identified [-]."""
@@ -62,8 +64,16 @@ def remarks(places: Sequence[PlaceOutcome]) -> list[str]:
             said.append(f"friction {how} by {share:.1f} % from stroke to stroke ({strokes} strokes){in_place(place)}{why}")
         if place.selected.effects and place.selected.unknown:
             said.append(f"what remains depends on {place.selected.unknown}{in_place(place)}; no known effect explains it")
-        said += _more_missing(place)
+        said += _more_missing(place) + _in_kilograms(place)
     return said
+
+
+def _in_kilograms(place: PlaceOutcome) -> list[str]:
+    """Return that the load of a slide is probably a mass in kg, where the coefficient of friction says so."""
+    shown = mechanism_estimates(place).get("mu_k")
+    if shown is None or place.place or place.fit[0].unit != "N":
+        return []
+    return list(filter(None, [load_in_kilograms((shown.value,), (place.stated.law.mu_k,), place.stated.load)]))
 
 
 def _more_missing(place: PlaceOutcome) -> list[str]:

@@ -46,10 +46,28 @@ def require_dissipation(dataset: Dataset, place: str, balances: Sequence[ForceBa
     Raises:
         InputError: it feeds the motion of a run: the drive is dead, or its sign is wrong.
     """
-    turned = f"the sign of the driving force, or of the position, is wrong; {_remedy(dataset, place)}"
     for balance in balances:
-        causes = _dead_drive(dataset, balance.run), _wrong_scale(dataset, place, balance), turned
-        _require_dissipation(balance, next(filter(None, causes)))
+        created = _brought_in(balance)
+        if created is not None:
+            dead = _dead_drive(dataset, balance.run)
+            cause = dead or _wrong_scale(dataset, place, balance) or _sign_or_other(dataset, place, balance)
+            raise InputError(
+                f"run {balance.run!r}: friction brings in energy ({100 * created:.0f} % of what it exchanges): {cause}"
+            )
+
+
+def _sign_or_other(dataset: Dataset, place: str, balance: ForceBalance) -> str:
+    """Return that the sign of a drive is wrong, or that it is not, where friction brings in energy with the other one, too."""
+    if place not in getattr(dataset.scenario.mechanism, "pairs", ()):  # with the drives turned round nothing touches there
+        turned = source_of(_turned(dataset, place)).balances(place, "fit", 0.0)
+        created = next((_brought_in(b) for b in turned if b.run == balance.run), None)
+        if created is not None:
+            return (
+                f"with the drive turned round it does, too ({100 * created:.0f} %), so the sign is not what is wrong: columns "
+                "may be swapped, a unit wrong (an angle in degrees that is labelled rad), or the mechanism another one; "
+                "compare columns, units and [mechanism] with the rig"
+            )
+    return f"the sign of the driving force, or of the position, is wrong; {_remedy(dataset, place)}"
 
 
 def _dead_drive(dataset: Dataset, run: str) -> str:
@@ -82,15 +100,13 @@ def _wrong_scale(dataset: Dataset, place: str, balance: ForceBalance) -> str:
     return f"{factor:.3g} times the driving force would move the joint so: {wrong}; {remedy}"
 
 
-def _require_dissipation(balance: ForceBalance, cause: str) -> None:
+def _brought_in(balance: ForceBalance) -> float | None:
+    """Return the part of what friction exchanges that it brings into a run [-]; None: it takes energy out, or hardly slides."""
     resistance, velocity = balance.driven[balance.sliding], balance.velocity[balance.window.centres][balance.sliding]
     if len(resistance) < 2 * SEGMENTS:
-        return
+        return None
     wrong = probable_sign_error(-(resistance - np.median(resistance)), velocity)
-    if wrong is not None:
-        raise InputError(
-            f"run {balance.run!r}: friction brings in energy ({100 * wrong.created:.0f} % of what it exchanges): {cause}"
-        )
+    return None if wrong is None else wrong.created
 
 
 def _remedy(dataset: Dataset, place: str) -> str:

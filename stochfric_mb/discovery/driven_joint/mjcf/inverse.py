@@ -44,11 +44,10 @@ from stochfric_mb.discovery.inference.noise import noise_level
 from stochfric_mb.effects.load_side import MotorMotion
 from stochfric_mb.measurement.run import Run
 from stochfric_mb.mechanisms import ProportionalDerivative
+from stochfric_mb.mechanisms.mjcf import CORRECTED
 
 Array = npt.NDArray[np.float64]
 
-CORRECTED = {"mass": "-", "armature": "-", "gain": "-", "damping": "-", "offset": "N"}
-"""What data may correct: factors on masses, armature, drive and damping of the joint, and an offset of its drive."""
 NOT_OF_TENDONS, NOT_OF_PAIRS = ("damping",), ("damping", "gain")
 """A tendon has no damping of its own here, and nothing drives a pair but through the joints."""
 LIFTED = 0.05

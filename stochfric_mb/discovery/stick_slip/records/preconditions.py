@@ -11,6 +11,7 @@ from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.stick_slip.records.slips import Slips
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.dataset import Dataset
+from stochfric_mb.measurement.scales import load_in_kilograms
 
 
 def require_usable(dataset: Dataset) -> None:
@@ -58,7 +59,8 @@ def require_driven(slips: Sequence[Slips], mu_s: float) -> None:
                     "turns a column round) and count the position from the unstressed spring"
                 )
             if share > criteria.MOST_FRICTION * max(1.0, mu_s):
+                zero = "count the position from where the spring is unstressed, or correct normal_force"
                 raise InputError(
                     f"run {one.record.name}: friction {when} comes out at {share:.3g} times the normal force, with mu_s stated "
-                    f"as {mu_s:.3g}; count the position from where the spring is unstressed, or correct normal_force"
+                    f"as {mu_s:.3g}; {load_in_kilograms((share,), (mu_s,), load) or zero}"
                 )
