@@ -12,7 +12,10 @@ import numpy as np
 
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.result import Where
+from stochfric_mb.discovery.stick_slip.decision.kinematics import kinematics
 from stochfric_mb.discovery.stick_slip.study import Study
+from stochfric_mb.discovery.stick_slip.study import study as measured
+from stochfric_mb.measurement.dataset import Dataset
 
 
 @dataclasses.dataclass(frozen=True)
@@ -51,6 +54,36 @@ class BeltSpeed:
             f"measure the belt's speed: in {self.run} the stuck box moves at {self.ratio * self.stated:.4g} m/s, not the "
             f"stated {self.stated:.4g} m/s; state the measured belt_velocity and repeat (a calibration, no effect)"
         )
+
+
+def at_shown_speed(study: Study) -> Study:
+    """Return the study with forces taken at the belt speed that the stuck box shows; itself, if that is the stated one.
+
+    All runs have to show the same factor, of a belt's gear or of a sensor's scale, and nothing else may show in stick.
+    """
+    belt, sticking = belt_speed(study), study.sticking
+    if belt is None or belt.too_much or sticking is None or kinematics(study, {}):
+        return study
+    away = sticking.belt_velocity_error - (belt.ratio - 1.0)
+    if np.any(np.abs(away) > np.maximum(criteria.BELT_NOTED / 2.0, criteria.BELT_DOUBT * sticking.belt_velocity_deviation)):
+        return study
+    again = measured(at_speed(study.dataset, belt.ratio))
+    return study if again is None else dataclasses.replace(again, belt=belt.ratio)
+
+
+def at_speed(dataset: Dataset, factor: float) -> Dataset:
+    """Return a data set whose belts run faster than is stated by a factor, that of its scenario among them."""
+    if factor == 1.0:
+        return dataset
+    box = dataset.scenario.mechanism
+    faster = dataclasses.replace(box, belt_velocity=factor * box.belt_velocity)
+    runs = tuple(
+        dataclasses.replace(
+            r, settings=dict(r.settings) | {"belt_velocity": factor * r.mechanism(dataset.scenario).belt_velocity}
+        )
+        for r in dataset.runs
+    )
+    return dataclasses.replace(dataset, scenario=dataclasses.replace(dataset.scenario, mechanism=faster), runs=runs)
 
 
 def belt_speed(study: Study) -> BeltSpeed | None:

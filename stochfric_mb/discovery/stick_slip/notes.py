@@ -132,6 +132,12 @@ def of_the_record(study: Study, *, varies: bool = False) -> list[str]:
         )
     if any(FORCE in run.channels for run in study.dataset.fit):
         said.append(f"the column {FORCE} is read and not used: forces follow from the measured motion and the stated spring")
+    if study.belt != 1.0:
+        said.append(
+            f"in stick the box moves at {study.belt:.3f} times the stated belt velocity in all runs, and forces are taken at "
+            "that speed: check the belt velocity, or the scale of the position (of a load cell, over the stiffness), by which "
+            "coefficients are then off as well"
+        )
     if not varies and (belt := belt_speed(study)) is not None:
         said.append(belt.note)
     return said

@@ -71,6 +71,8 @@ class Study:
     """How the reading bends over; None where there is hardly any stick."""
     outliers: float
     """Share of samples that were outliers [-]."""
+    belt: float = 1.0
+    """Factor on the stated belt speeds with which these forces were taken [-]: the stuck box moves so much faster."""
     explained: float = 0.0
     """Evidence of what the stated model says of friction beyond two coefficients [-]: a law that depends on speed, effects."""
 

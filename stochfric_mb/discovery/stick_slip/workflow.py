@@ -10,6 +10,7 @@ from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.outcome import Outcome
 from stochfric_mb.discovery.result import Result
 from stochfric_mb.discovery.stick_slip.advice import next_experiment, not_identifiable
+from stochfric_mb.discovery.stick_slip.belt_speed import at_shown_speed, at_speed
 from stochfric_mb.discovery.stick_slip.decision.decision import Decision
 from stochfric_mb.discovery.stick_slip.decision.innovations import beyond_stated
 from stochfric_mb.discovery.stick_slip.decision.rounds import decide
@@ -64,7 +65,8 @@ def discover_belt_box(dataset: Dataset, *, channels: Channels = EVERYTHING, prog
     measured = study(dataset, progress=progress)
     if measured is None:
         return _too_few(given)
-    slip_study = beyond_stated(measured)
+    slip_study = beyond_stated(at_shown_speed(measured))
+    dataset = slip_study.dataset
     decision = decide(slip_study, channels=channels, progress=progress)
     progress("recalibration")
     recalibrated = recalibrated_model(slip_study.model, slip_study)
@@ -86,7 +88,8 @@ def discover_belt_box(dataset: Dataset, *, channels: Channels = EVERYTHING, prog
     kept = term if term is not None and term.carries_over else None
     models = (slip_study.model, recalibrated.model, answer.model if kept is None else kept.fit.model)
     result = _result(answer, kept, recalibrated, models, slip_study, runs, given)
-    return Outcome(result, augmented_scenario(given, models[2]), given, slip_study, answer.decision, models, runs)
+    scenario = augmented_scenario(at_speed(given, slip_study.belt), models[2])
+    return Outcome(result, scenario, given, slip_study, answer.decision, models, runs)
 
 
 def _answer(

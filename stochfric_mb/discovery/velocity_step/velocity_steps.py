@@ -15,6 +15,7 @@ import numpy.typing as npt
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.joint_result import JointOutcome
 from stochfric_mb.discovery.driven_joint.simulation.pictures import Picture, step_picture
+from stochfric_mb.discovery.driven_joint.simulation.scores import FLOOR
 from stochfric_mb.discovery.inference.intervals import confidence_interval
 from stochfric_mb.discovery.inference.noise import independent_count, white_noise
 from stochfric_mb.discovery.result import EffectEstimate, Gap, Interval, Result, Where
@@ -38,6 +39,10 @@ HALF_WIDTHS = (0, 3, 4, 6, 8, HALF_WIDTH)
 QUIET = 0.3
 """Noise of its way from sample to sample, over the lowest of these (10 % quantile), up to which no wider window is taken [-]:
 the spring adds up the way, so that noise counts only where it turns the motion round."""
+AT_END = 1.0e-6
+"""Distance of a number from the end of what is looked for, over its size, at which it is held by it [-]."""
+STEP = 1.5
+"""Factor between two speeds from which on they are of a step [-]: windows leave less than a tenth of noise."""
 PARTS = 12
 """Parts of an axis along which what is left of friction is looked at."""
 
@@ -201,11 +206,12 @@ def _result(
         ranking=tuple(sorted(scores.items(), key=lambda s: -s[1])),
         gap=gap,
         not_identifiable=tuple(k for k in effect_kinds() if k not in (*searched, *kinds_with(ANONYMOUS))),
-        next_experiment=_advice(effects),
+        next_experiment=_advice(effects, tracks),
         parameters=_of_the_rig(closest if kept is None else kept.law_alone(closest.law)),
         notes=(
             *gap.notes,
             *unnamed.values(),
+            *([] if not effects else _doubts(closest, gap)),
             "the load point's speed is taken through a window; the machine's stiffness is fitted",
         ),
         unnamed=_unnamed(kept) if kept is not None else None,
@@ -213,11 +219,33 @@ def _result(
     )
 
 
-def _advice(effects: Sequence[EffectEstimate]) -> str:
+def _doubts(named: Fitted, gap: Gap) -> list[str]:
+    """Return what speaks against the law that is named: numbers at the end of what is looked for, and more left than noise."""
+    law = named.law
+    ends = [
+        f"{name.removeprefix('log_')} is as {'small' if value - low <= high - value else 'large'} as is looked for: the form "
+        "is in doubt, and so are the other numbers"
+        for name, value, low, high in zip(law.names, named.values, law.low, law.high, strict=True)
+        if min(value - low, high - value) <= AT_END * max(abs(value), 1.0e-12)
+    ]
+    ratio = gap.augmented / gap.floor if gap.floor > 0.0 else 0.0
+    if ratio > FLOOR:
+        why = "more is missing, or friction scatters by itself"
+        ends.append(f"{ratio:.1f} times the noise is left on the held-out runs: {why}")
+    return ends
+
+
+def _steps_down(track: Track) -> bool:
+    """Return whether the load point slows down somewhere in a run by a step."""
+    return bool((np.maximum.accumulate(track.speed) > STEP * track.speed).any())
+
+
+def _advice(effects: Sequence[EffectEstimate], tracks: Sequence[Track]) -> str:
     """Return the next experiment."""
     if any(e.kind == kind_with_signature(SLOPE_IN_DISTANCE) for e in effects):
         return "The same steps over the same way again, and from another place: they separate the distance slid from the place."
-    return "Steps down as well as up, and hold tests: they separate ageing with time from slip with distance."
+    steps = "Hold tests" if any(map(_steps_down, tracks)) else "Steps down as well as up, and hold tests"
+    return f"{steps}: they separate ageing with time from slip with distance."
 
 
 def _gap(dataset: Dataset, tracks: Sequence[Track], plain: Fitted, final: Fitted) -> Gap:
