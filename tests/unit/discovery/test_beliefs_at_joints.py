@@ -8,9 +8,10 @@ import pytest
 
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.balance.confounding import Confounded, stand_ins
+from stochfric_mb.discovery.driven_joint.balance.force_balance import Nuisance
 from stochfric_mb.discovery.driven_joint.decision import findings, remarks
 from stochfric_mb.discovery.driven_joint.decision.adequacy import endless, inadequate
-from stochfric_mb.discovery.driven_joint.decision.released import Released
+from stochfric_mb.discovery.driven_joint.decision.released import Released, _driven
 from stochfric_mb.discovery.driven_joint.decision.selection import Selector, Trial, simplest_first
 from stochfric_mb.discovery.driven_joint.fit.beliefs import at_end, beliefs
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
@@ -241,3 +242,18 @@ def test_what_could_not_be_named_stands_before_nothing_that_can(best, simpler, f
     trials += [Trial(Candidate(VISCOUS.kind, (VISCOUS,), "", 1), nothing, simpler, 0.0)]
     assert simplest_first(trials)[0].candidate.kind == first
     assert (criteria.NAMED, criteria.TIE) == (20.0, 10.0)
+
+
+@pytest.mark.parametrize("name", ["gain", "drive_factor", "force_gain"])
+def test_a_drive_whose_scale_is_in_doubt_is_a_drive(name):
+    """With its column nothing was left of the balance, and no number of the mechanism was ever found off: a factor of 0.75 was a
+    gain that changes."""
+    rng = np.random.default_rng(1)
+    drive, acceleration = rng.standard_normal((2, 50))
+    columns = {"mass": acceleration, "offset": np.ones(50), name: -drive}
+    mechanism = [Nuisance(n, 1.0, 0.1, "-") for n in columns]
+    measured = SimpleNamespace(columns=columns, driven=drive - acceleration)
+    thrown = SimpleNamespace(columns=columns, driven=-acceleration)
+    assert _driven([measured], mechanism)
+    assert not _driven([thrown], mechanism)
+    assert _driven([measured], mechanism[2:])

@@ -166,7 +166,9 @@ def _driven(balances: Sequence[ForceBalance], nuisances: Sequence[Nuisance]) -> 
     """Return whether a drive is measured: without one all forces could be less in the same proportion, errors included."""
     if not nuisances:
         return True
-    names = [n.name for n in nuisances]
+    names = [n.name for n in nuisances if n.name not in OF_THE_DRIVE]  # the drive itself would leave nothing
+    if not names:
+        return True
     columns = np.concatenate([np.column_stack([s.columns[n] for n in names if n in s.columns]) for s in balances])
     driven = np.concatenate([s.driven for s in balances])
     scaled = columns / np.maximum(np.linalg.norm(columns, axis=0), 1.0e-300)
