@@ -246,8 +246,8 @@ def test_what_could_not_be_named_stands_before_nothing_that_can(best, simpler, f
 
 @pytest.mark.parametrize("name", ["gain", "drive_factor", "force_gain"])
 def test_a_drive_whose_scale_is_in_doubt_is_a_drive(name):
-    """With its column nothing was left of the balance, and no number of the mechanism was ever found off: a factor of 0.75 was a
-    gain that changes."""
+    """With its column nothing was left of the balance, and no number of the mechanism was ever found to be off."""
+
     rng = np.random.default_rng(1)
     drive, acceleration = rng.standard_normal((2, 50))
     columns = {"mass": acceleration, "offset": np.ones(50), name: -drive}
