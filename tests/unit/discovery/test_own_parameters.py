@@ -10,7 +10,7 @@ from stochfric_mb import load_scenario
 from stochfric_mb.discovery.inference.free_parameter import LAW, MECHANISM, FreeParameter
 from stochfric_mb.discovery.result import Interval
 from stochfric_mb.discovery.stick_slip.parameters import moved, not_measured, own_parameters
-from stochfric_mb.discovery.stick_slip.simulation.refit import WIDEST, Fit, _with_priors
+from stochfric_mb.discovery.stick_slip.simulation.refit import WIDEST, Fit, _blind_to_scale, _with_priors
 from stochfric_mb.measurement.dataset import Dataset
 
 
@@ -71,3 +71,48 @@ def test_what_is_off_by_more_than_stated_is_pointed_out():
     off = moved(table, dataset, unmeasured=["damping"])
     assert set(off) == {"mass"}
     assert off["mass"] == pytest.approx((3.164 - 6.08) / (0.02 * 6.08), rel=1e-12)
+
+
+NAMES = (
+    ("mu_s", LAW),
+    ("mu_k", LAW),
+    ("stiffness", MECHANISM),
+    ("mass", MECHANISM),
+    ("damping", MECHANISM),
+    ("rise", 0),
+    ("way", 0),
+)
+VALUES = np.array([0.6, 0.4, 0.02, -0.01, 0.1, 0.05, 3.0])
+SCALES = np.array([0.012, 0.012, 0.05, 0.02, 0.3, 0.05, 3.0])
+LARGER = np.array([0.6, 0.4, 1.02, 0.99, 1.1, 0.05, 0.0]) / SCALES
+"""Where all forces are larger by a share [natural steps]: a coefficient of an effect goes along, a length does not."""
+
+
+def motion(exact=0.0):
+    """Slopes of a motion that knows nothing of that direction, but for differences that err by a share."""
+    rng = np.random.default_rng(4)
+    size = np.array([50.0, 20.0, 80.0, 5.0, 2.0, 30.0, 10.0])
+    seen = size * rng.standard_normal((60, 7))
+    blind = seen - np.outer(seen @ LARGER, size**2 * LARGER / (size**2 @ LARGER**2))
+    each = zip(NAMES, VALUES, SCALES, strict=True)
+    free = [FreeParameter(owner, name, value, scale, -9.0, 9.0) for (name, owner), value, scale in each]
+    steps = SimpleNamespace(start=VALUES, scale=SCALES)
+    misfit = SimpleNamespace(free=free, steps=steps, errors=lambda step: np.r_[blind @ step, np.zeros(7)])
+    return blind, blind * (1.0 + exact * rng.standard_normal(blind.shape)), misfit
+
+
+def test_no_motion_tells_the_scale_of_all_forces_however_slopes_err():
+    exact, erring, misfit = motion(0.02)
+    prior = np.array([0.0, 0.0, 1.0, 1.0, 1.0, 0.0, 0.0])  # natural steps of the mechanism are its stated deviations
+    told, blind = (SCALES * _with_priors(x, prior)[1] for x in (erring, _blind_to_scale(erring, misfit)))
+    true = SCALES * _with_priors(exact, prior)[1]
+    assert told[2] < 0.5 * true[2]  # errors of two hundredths of slopes told it twice as well as mass and stiffness are known
+    assert blind == pytest.approx(true, rel=0.05)
+    # friction is known as well as all forces are: by the better of what is stated, a mass to 2 %
+    assert blind[0] / 0.6 == pytest.approx(true[2] / 1.02, rel=0.1)
+
+
+def test_a_number_of_the_rig_that_is_exact_tells_it():
+    _, erring, misfit = motion(0.02)
+    misfit.free = [k for k in misfit.free if k.name != "damping"]
+    assert np.array_equal(_blind_to_scale(np.delete(erring, 4, axis=1), misfit), np.delete(erring, 4, axis=1))

@@ -9,9 +9,9 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 
 from stochfric_mb.discovery.inference.fitter import loss, minimised
-from stochfric_mb.discovery.inference.free_parameter import FreeParameter, steps_of
+from stochfric_mb.discovery.inference.free_parameter import LAW, MECHANISM, FreeParameter, steps_of
 from stochfric_mb.discovery.inference.threads import in_threads
-from stochfric_mb.discovery.stick_slip.records.record import Array
+from stochfric_mb.discovery.stick_slip.records.record import CORRECTED, Array
 from stochfric_mb.discovery.stick_slip.simulation.forecast import Windows, forecasts
 from stochfric_mb.discovery.stick_slip.simulation.model import Model, adjusted, free_parameters
 from stochfric_mb.discovery.stick_slip.simulation.natural_units import NaturalUnits
@@ -71,6 +71,10 @@ class Fit:
     empty before `with_deviations`."""
     posterior: Array = dataclasses.field(default_factory=lambda: np.zeros(0))
     """Standard deviations by forecasts and prior together, each at its own weight, shape as `data_share`."""
+
+
+SHARE = 0.01
+"""Share by which all forces are larger where it is asked which numbers of an effect go along [-]."""
 
 
 def thinned(windows: Windows, most: int) -> Windows:
@@ -205,13 +209,43 @@ def with_deviations(
         return 0.5 * (sides[0] + sides[1])
 
     slopes = np.stack(in_threads(slope, range(len(misfit.free))), axis=1)
-    steps = misfit.steps
-    data = slopes[: len(here) - len(misfit.free)]  # the last rows are the priors
+    steps, rows = misfit.steps, len(here) - len(misfit.free)
+    data = _blind_to_scale(slopes[:rows], misfit)
+    believed = misfit.priors @ np.diag(steps.scale / steps.prior)
     data_share, posterior = _with_priors(data, steps.scale / steps.prior)
     return dataclasses.replace(
-        fit, free=misfit.free, values=steps.start, deviations=steps.scale * _deviations(slopes, 1.0), data_share=data_share,
-        posterior=steps.scale * posterior,
+        fit, free=misfit.free, values=steps.start, deviations=steps.scale * _deviations(np.r_[data, believed], 1.0),
+        data_share=data_share, posterior=steps.scale * posterior,
     )  # fmt: skip
+
+
+def _blind_to_scale(slopes: Array, misfit: _Misfit) -> Array:
+    """Return slopes that tell nothing of the scale of all forces, shape (n, p): no motion shows it, and differences err.
+
+    A rig with stiffness, mass, damping and friction larger by one share moves as it did, where the numbers of effects that are
+    forces or coefficients are as well. Of each number as large a share of its slope is taken away as brings that about.
+
+    Args:
+        slopes: of the forecasts, in their standard deviations over natural steps, shape (n, p).
+        misfit: the forecasts' errors.
+    """
+    free, steps = misfit.free, misfit.steps
+    if not {*CORRECTED, "mu_s", "mu_k"} <= {k.name for k in free if k.owner in (LAW, MECHANISM)}:
+        return slopes  # one that is exact says how large all are
+    here = misfit.errors(np.zeros(len(free)))[: len(slopes)]
+
+    def away(along: Array) -> float:
+        return float(np.linalg.norm(misfit.errors(SHARE * along)[: len(slopes)] - here))
+
+    rig = np.array([k.owner in (LAW, MECHANISM) for k in free])
+    sizes = (np.array([k.name in CORRECTED and k.owner == MECHANISM for k in free]) + steps.start) / steps.scale
+    along = np.where(rig, sizes, 0.0)
+    for j in np.flatnonzero(~rig & (sizes != 0.0)):  # which numbers have to go along, the motion says
+        with_ = along + np.where(np.arange(len(free)) == j, sizes, 0.0)
+        along = with_ if away(with_) < away(along) else along
+    weight = np.sum(slopes**2, axis=0) * along
+    total = float(weight @ along)
+    return slopes - np.outer(slopes @ along, weight / total) if total > 0.0 else slopes
 
 
 def _with_priors(slopes: Array, prior: Array) -> tuple[Array, Array]:
@@ -288,7 +322,8 @@ class _Misfit:
         self._seen_by = [np.array([k.run in ("", run) for k in self.free], dtype=bool) for run in runs]
         most = 2 + sum(not k.run for k in self.free)
         self._missed = [functools.lru_cache(most)(functools.partial(self._missed_in, w)) for w in self.windows]
-        self._together = _together(self.free, model.effects)
+        self.priors = _together(self.free, model.effects)
+        """What makes independent surprises of the numbers', shape (n_free, n_free)."""
         self._further: Further | None = None
         self._weight, self._repeats, self._belief = 0.0, 0, 1.0
 
@@ -306,7 +341,7 @@ class _Misfit:
         """Return the errors of forecasts and priors."""
         values = self.steps.values(step)
         parts = [missed(*values[seen]) for missed, seen in zip(self._missed, self._seen_by, strict=True)]
-        return np.concatenate([*parts, self._belief * (self._together @ self.steps.surprise(values))])
+        return np.concatenate([*parts, self._belief * (self.priors @ self.steps.surprise(values))])
 
     def believed(self, step: Array) -> float:
         """Return what one standard deviation of a prior weighs: what an independent number of a forecast errs."""
