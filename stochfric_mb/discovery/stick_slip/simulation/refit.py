@@ -245,7 +245,7 @@ def _blind_to_scale(slopes: Array, misfit: _Misfit) -> Array:
         along = with_ if away(with_) < away(along) else along
     weight = np.sum(slopes**2, axis=0) * along
     total = float(weight @ along)
-    return slopes - np.outer(slopes @ along, weight / total) if total > 0.0 else slopes
+    return np.asarray(slopes - np.outer(slopes @ along, weight / max(total, 1.0e-300)), dtype=np.float64)
 
 
 def _with_priors(slopes: Array, prior: Array) -> tuple[Array, Array]:
