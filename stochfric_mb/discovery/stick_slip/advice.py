@@ -9,6 +9,7 @@ from stochfric_mb.discovery.stick_slip.decision.choice import OTHER_RIG
 from stochfric_mb.discovery.stick_slip.decision.decision import Decision
 from stochfric_mb.discovery.stick_slip.records.pool import Pool
 from stochfric_mb.discovery.stick_slip.study import Study
+from stochfric_mb.discovery.stick_slip.validation.explained import FORECASTS
 from stochfric_mb.effects import effect_class, effect_kinds, words_of
 
 FORCE = "force"
@@ -53,7 +54,8 @@ def _to_find(axis: str, study: Study) -> str:
         return "a load test of the spring and a weighing of the box: with them as stated, what is missing has no name"
     measured = any(FORCE in run.channels for run in study.dataset.fit)
     wanted = _untried(study) if measured else ["a force sensor", *_untried(study)]
-    return f"a repeat with {' and '.join(wanted)}, to see what varies along: {axis}"
+    aim = "in which part of the cycle the model errs" if axis == FORECASTS else f"what varies along: {axis}"
+    return f"a repeat with {' and '.join(wanted)}, to see {aim}"
 
 
 def next_experiment(decision: Decision, study: Study) -> str:

@@ -27,6 +27,8 @@ GOLDEN = 0.6180339887498949
 """The ratio whose multiples repeat least."""
 JUDGED_WINDOWS = 24
 """Forecasts of each run that are judged."""
+FORECASTS = "forecasts of one cycle"
+"""Where the disagreement lives that forecasts alone show."""
 MORE_MISSING = "more_missing"
 """Name under which the details hold what is missing beside what is named."""
 
@@ -228,11 +230,10 @@ def _scattered(windows: Windows, most: int) -> Windows:
 def _missed(decision: Decision, before: float, floor: float) -> Decision | None:
     """Return the decision that something is missing; None: what is named stands, for two channels show it whatever that is."""
     faults = ", ".join(n.kind for n in decision.named)
-    beside = f" beside {faults}" if faults else ""
+    seen = f"the readings look like {faults}, but with it" if faults else "no effect stands out in the forces of the slips, but"
     where = Where(
-        "forecasts of one cycle",
-        f"no effect{beside} stands out in the forces of the slips, but forecasts of the fit runs miss by {before:.2g} m, where "
-        f"the model would miss by {floor:.2g} m if it were true",
+        FORECASTS,
+        f"{seen} forecasts of the fit runs miss by {before:.2g} m, where the model would miss by {floor:.2g} m if it were true",
     )
     if decision.named and {n.kind for n in decision.named} <= _measured(decision.model):
         decision.details[MORE_MISSING] = where.text
