@@ -35,6 +35,7 @@ from stochfric_mb.discovery.stick_slip.simulation.delay_compensation import driv
 from stochfric_mb.discovery.stick_slip.study import study
 from stochfric_mb.discovery.stick_slip.validation.answers import Answer, explaining, fitted
 from stochfric_mb.discovery.stick_slip.validation.explained import unexplained
+from stochfric_mb.discovery.stick_slip.validation.feature_skill import Gaps
 from stochfric_mb.discovery.stick_slip.validation.predictive_check import inadequate
 from stochfric_mb.discovery.stick_slip.workflow import recalibrated_model
 from stochfric_mb.effects import make_effect
@@ -292,7 +293,7 @@ def test_advice_and_notes_speak_of_this_experiment(data, slip_study, decision):
     assert "belt speed" in next_experiment(decision, slip_study)
     gap = Gap("crps_one_cycle", "m", True, 2e-5, 1e-5, 1.2e-5, 4e-6)
     details = decision.details | {"parameters": {"moved_beyond_uncertainty": {"mass": 3.2}}}
-    sentences = notes(slip_study, dataclasses.replace(decision, details=details), slip_study.model, gap, None, data)
+    sentences = notes(slip_study, dataclasses.replace(decision, details=details), slip_study.model, Gaps(gap), data)
     assert any("mass is 3.2 stated standard deviations" in note for note in sentences)
     assert any("off by more" in note for note in sentences)
 
@@ -306,7 +307,7 @@ def test_a_name_that_leaves_more_than_noise_in_the_forces_of_slips_is_said_not_t
     details.pop("more_missing", None)
     named = dataclasses.replace(decision, details=details)
     assert named.named
-    sentences = notes(slip_study, named, slip_study.model, None, forces, data)
+    sentences = notes(slip_study, named, slip_study.model, Gaps(None, forces), data)
     assert any("more is missing" in note for note in sentences) is said
 
 

@@ -86,7 +86,8 @@ def inadequate(study: Study, model: Model) -> tuple[Where | None, dict[str, list
         left = _left(study.pool, calm, study.uncertainty, random=model.random)
         if left is None:
             return None, {}
-        before = _misfit(dataclasses.replace(study.baseline.pool, kept=left[1]), study.uncertainty, random=model.random)
+        beyond = study.baseline.pool if study.model.says_more else study.pool  # less what is stated already
+        before = _misfit(dataclasses.replace(beyond, kept=left[1]), study.uncertainty, random=model.random)
         nothing = [np.zeros(N_FEATURES)] * len(before.means), np.zeros(2)
         shown, rest = before.excess(*nothing), left[0].excess(*nothing)
         if not _lacks(shown, rest, left[0].freedom, 0.0).any():
