@@ -231,6 +231,23 @@ def test_names_that_leave_more_than_noise_say_so(monkeypatch, left, drawn, says)
     assert not says or said[0].endswith("2.3 times the noise is left with what is named: more is missing; it depends on speed")
 
 
+@pytest.mark.parametrize(("off", "says"), [(-3.5, True), (1.5, False)])
+def test_a_number_that_data_take_far_from_what_is_stated_is_spoken_of(off, says):
+    """A mass of 12 kg for 18.5 kg +- 10 % stood in a file alone."""
+    selector = selector_of(pair(coulomb))
+    nothing = selector.run()
+    believed = next(n for n in selector._nuisances if n.name == "mass")
+    values = nothing.final.values.copy()
+    place = [k.name for k in nothing.final.free].index("mass")
+    values[place] = believed.value + off * believed.deviation
+    final = dataclasses.replace(nothing.final, values=values)
+    balances, model = tuple(selector._balances), nothing.recalibrated.model
+    selected = dataclasses.replace(nothing, final=final)
+    outcome = PlaceOutcome("", selected, tuple(selector._nuisances), model, balances, balances, {}, 0.01)
+    said = [s for s in remarks.remarks([outcome]) if "stated standard deviations off from what is stated" in s]
+    assert said == ([f"mass is {abs(off):.2g} stated standard deviations off from what is stated"] if says else [])
+
+
 @pytest.mark.parametrize(
     ("best", "simpler", "first"),
     [(45.0, 37.0, "viscous_friction"), (45.0, 33.0, SPRING.kind), (25.0, 17.0, SPRING.kind), (15.0, 9.0, "viscous_friction")],

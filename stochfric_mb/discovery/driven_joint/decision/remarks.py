@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from stochfric_mb.discovery.driven_joint.balance.force_balance import PAYLOADS
-from stochfric_mb.discovery.driven_joint.decision.estimates import mechanism_estimates
+from stochfric_mb.discovery.driven_joint.decision.estimates import against_priors, mechanism_estimates
 from stochfric_mb.discovery.driven_joint.decision.findings import in_place
 from stochfric_mb.discovery.driven_joint.decision.smooth_dependence import SIGNED
 from stochfric_mb.discovery.driven_joint.fit.evidence import scatter, settings_of
@@ -56,6 +56,10 @@ def remarks(places: Sequence[PlaceOutcome]) -> list[str]:
                 f"{words_of(kind)} cannot be distinguished from a correction of {names} here{in_place(place)}: any of it is "
                 "included in these numbers"
             )
+        said += [
+            f"{name}{in_place(place)} is {abs(by):.2g} stated standard deviations off from what is stated"
+            for name, by in against_priors(place)[1].items()
+        ]
         said += _between_settings(place)
         if place.random is not None and place.random.low > 0.0 and not place.random.accounted:
             how = "drifts at random" if place.random.wanders else "scatters"
