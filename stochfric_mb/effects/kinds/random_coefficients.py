@@ -51,6 +51,10 @@ class RandomCoefficients(Effect):
     shows_on: ClassVar[str] = "scatter"
     shows: ClassVar[str] = "friction scatters from slip to slip with no memory"
 
+    def lacks(self, name: str) -> bool:
+        """Return whether a parameter belongs to a form of the effect that this one has not: only knots have a spacing."""
+        return (name == "spacing" and self.process != "knots") or super().lacks(name)
+
     def coefficient_process(self) -> Process:
         """Return the coefficient process that the effect sets."""
         if self.process == "knots":

@@ -154,3 +154,10 @@ def test_a_fall_with_speed_has_the_exponential_as_the_limit_of_its_tail(tail):
         world[contract.SPEED], world[contract.MU_K] = v, 0.3
         friction(world, np.zeros(4), np.zeros(4), (0.05, 5e-3, 1.0, tail))
         assert world[contract.MU_K] == pytest.approx(0.3 + rise, rel=1e-14)
+
+
+@pytest.mark.parametrize(("process", "said"), [("knots", True), ("per_event", False), ("per_run", False)])
+def test_only_knots_have_a_spacing(process, said):
+    effect = make_effect("random_coefficients", process=process, sigma_s=0.01, sigma_k=0.01, spacing=0.02)
+    assert ("spacing" in effect.given()) is said
+    assert make_effect(**effect.given()).coefficient_process() == effect.coefficient_process()
