@@ -147,7 +147,7 @@ def test_where_one_body_moves_a_payload_is_a_factor_on_its_mass(tmp_path):
 def test_geoms_that_overlap_and_stops_are_no_forces_of_a_motion(tmp_path):
     """A robot's shoulder in its base pushed with 1e14 N m, and a gain that changes was named for it."""
     text = (ARM.MODEL / "two_joint_arm.xml").read_text(encoding="utf-8")
-    post = '<worldbody><geom type="sphere" size="0.3" mass="1"/>'
+    post = '<worldbody><geom type="sphere" pos="0.2 0 -0.2" size="0.15" mass="1"/>'
     stop = text.replace("<worldbody>", post, 1).replace('name="elbow"', 'name="elbow" limited="true" range="-0.01 0.01"', 1)
     assert stop.count("range=") == text.count("range=") + 1
     scenario = load_any_scenario(ARM.MODEL / "scenario.toml")

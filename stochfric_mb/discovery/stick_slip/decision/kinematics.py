@@ -30,6 +30,9 @@ from stochfric_mb.effects.traits import BELT_RIPPLE, CLIPPED, CREEPING_ZERO, JUM
 from stochfric_mb.laws.elastic_stick import ElasticStick
 from stochfric_mb.measurement.delay import Delay, Term, estimate_delay
 
+VELOCITY_WINDOW = 0.4
+"""Half width of the window through which position and velocity are compared, as an angle of the natural oscillation [rad]: an
+eighth of a slip, which is half a turn."""
 LIMITS = (1.52e-3, 4.56e-3, 1.52e-2, 4.56e-2)
 """Elastic limits at which fits of a yielding contact begin, over the deflection of the spring under the normal force [-]."""
 
@@ -330,7 +333,7 @@ def _delays(study: Study, details: dict[str, object]) -> list[Finding]:
     for run in study.dataset.fit:
         if "velocity" in run.channels:
             position = Term(run.channels["position"], 1)
-            width = 0.4 / study.records[0].angular_frequency
+            width = VELOCITY_WINDOW / study.records[0].angular_frequency
             delays.append(estimate_delay(run.channels["velocity"], [position], run.sample_interval, half_width=width))
     if not delays:
         return []

@@ -240,9 +240,12 @@ def _blind_to_scale(slopes: Array, misfit: _Misfit) -> Array:
     rig = np.array([k.owner in (LAW, MECHANISM) for k in free])
     sizes = (np.array([k.name in CORRECTED and k.owner == MECHANISM for k in free]) + steps.start) / steps.scale
     along = np.where(rig, sizes, 0.0)
-    for j in np.flatnonzero(~rig & (sizes != 0.0)):  # which numbers have to go along, the motion says
+    least = away(along)
+    asked = ~rig & (sizes != 0.0) & np.array([not k.run for k in free])  # a phase of a run is no force
+    for j in np.flatnonzero(asked):  # which numbers have to go along, the motion says
         with_ = along + np.where(np.arange(len(free)) == j, sizes, 0.0)
-        along = with_ if away(with_) < away(along) else along
+        if (left := away(with_)) < least:
+            along, least = with_, left
     weight = np.sum(slopes**2, axis=0) * along
     total = float(weight @ along)
     return np.asarray(slopes - np.outer(slopes @ along, weight / max(total, 1.0e-300)), dtype=np.float64)

@@ -11,6 +11,7 @@ import numpy as np
 
 from stochfric_mb.discovery.inference.noise import white_noise
 from stochfric_mb.discovery.result import Gap
+from stochfric_mb.discovery.stick_slip.decision.kinematics import VELOCITY_WINDOW
 from stochfric_mb.discovery.stick_slip.records.record import Array, Record
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.study import Study
@@ -23,8 +24,6 @@ AROUND = np.array([-1.0, 4.0, 0.0, 4.0, -1.0]) / 6.0
 """What the four readings around one say of it: a cubic through them."""
 WIDE = 8.0
 """Standard deviations of the wider part over which a mixture is integrated [-]: beyond lie 1e-15 of it."""
-VELOCITY_WINDOW = 0.4
-"""Half width of the window through which position and velocity are compared, as an angle of the natural oscillation [rad]."""
 
 
 def reading_gap(model: Model, study: Study, held_out: Sequence[Record]) -> Gap | None:
