@@ -70,6 +70,9 @@ def test_a_law_that_falls_with_speed_and_is_stated_leaves_nothing():
     result = answer(runs, stated).result
     assert result.verdict == "none"
     assert result.gap.recalibrated < 1.05 * result.gap.floor
+    # before the law was taken out the slips held a shape with a score of 3794: a twentieth of that is what its form leaves
+    assert result.ranking[0][1] < 190.0
+    assert not any("not validated" in note for note in result.notes)
 
 
 def test_what_is_missing_beside_such_a_law_has_its_name():
