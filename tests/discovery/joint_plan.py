@@ -18,6 +18,8 @@ from .joint_generator.unseen_fifth import UNSEEN_FIFTH
 from .joint_generator.unseen_fourteenth import PAIRS as UNSEEN_FOURTEENTH_PAIRS
 from .joint_generator.unseen_fourteenth import UNSEEN_FOURTEENTH
 from .joint_generator.unseen_fourth import UNSEEN_FOURTH
+from .joint_generator.unseen_nineteenth import PAIRS as UNSEEN_NINETEENTH_PAIRS
+from .joint_generator.unseen_nineteenth import UNSEEN_NINETEENTH
 from .joint_generator.unseen_ninth import PAIRS as UNSEEN_NINTH_PAIRS
 from .joint_generator.unseen_ninth import UNSEEN_NINTH
 from .joint_generator.unseen_second import UNSEEN_SECOND
@@ -103,6 +105,7 @@ SERIES = {
     16: (UNSEEN_SIXTEENTH, UNSEEN_SIXTEENTH_PAIRS),
     17: (UNSEEN_SEVENTEENTH, UNSEEN_SEVENTEENTH_PAIRS),
     18: (UNSEEN_EIGHTEENTH, UNSEEN_EIGHTEENTH_PAIRS),
+    19: (UNSEEN_NINETEENTH, UNSEEN_NINETEENTH_PAIRS),
 }
 """Sets of forms for a report, with their pairs."""
 

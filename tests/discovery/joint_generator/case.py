@@ -22,6 +22,7 @@ from .unseen_fifteenth import UNSEEN_FIFTEENTH
 from .unseen_fifth import UNSEEN_FIFTH
 from .unseen_fourteenth import UNSEEN_FOURTEENTH
 from .unseen_fourth import UNSEEN_FOURTH
+from .unseen_nineteenth import UNSEEN_NINETEENTH
 from .unseen_ninth import UNSEEN_NINTH
 from .unseen_second import UNSEEN_SECOND
 from .unseen_seventeenth import UNSEEN_SEVENTEENTH
@@ -49,7 +50,7 @@ LINKS = frozenset(("joint_compliance", "backlash"))
 
 _WITH_LINKS = UNSEEN_FIFTH | UNSEEN_SIXTH | UNSEEN_SEVENTH | UNSEEN_EIGHTH | UNSEEN_NINTH
 _WITH_LINKS |= UNSEEN_TENTH | UNSEEN_ELEVENTH | UNSEEN_TWELFTH | UNSEEN_THIRTEENTH | UNSEEN_FOURTEENTH | UNSEEN_FIFTEENTH
-_WITH_LINKS |= UNSEEN_SIXTEENTH | UNSEEN_SEVENTEENTH | UNSEEN_EIGHTEENTH
+_WITH_LINKS |= UNSEEN_SIXTEENTH | UNSEEN_SEVENTEENTH | UNSEEN_EIGHTEENTH | UNSEEN_NINETEENTH
 _BEFORE = 1.0  # s under control before a record begins
 
 

@@ -10,7 +10,7 @@ from zlib import crc32
 import numpy as np
 from scipy.signal import lfilter
 
-from . import (  # each enters its forms; `sixteenth` has the others enter theirs first: rigs in turn hang on the order
+from . import (  # each enters its forms; `seventeenth` has the others enter theirs first: rigs in turn hang on the order
     eighth,  # noqa: F401
     eleventh,  # noqa: F401
     fifteenth,  # noqa: F401
@@ -23,6 +23,7 @@ from . import (  # each enters its forms; `sixteenth` has the others enter their
     ninth,  # noqa: F401
     null_forms,  # noqa: F401
     second_forms,  # noqa: F401
+    seventeenth,  # noqa: F401
     seventh,  # noqa: F401
     sixteenth,  # noqa: F401
     sixth,  # noqa: F401

@@ -1,7 +1,6 @@
 """A sixteenth set, written from the literature by three authors who have read neither the method nor its results; on the
 rigs of the fifteenth.
 
-rigs                          six rigs of their own, for the known effects; the others stand on those of the sixteenth set
 friction, mechanism, sensor   shapes of known effects, one a kind, as laboratories meet them: none had to be new
 nameless                      effects that no name describes
 nulls                         rigs that are as believed
