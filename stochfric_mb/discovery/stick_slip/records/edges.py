@@ -58,20 +58,25 @@ def _misfit(time, position, edge, belt, side, frequency, ridge, excitation):
     normal = np.zeros((3, 3))
     right = np.zeros(3)
     total = 0.0
-    row = np.zeros(3)
     for i in range(len(time)):
-        tau = max((time[i] - edge) * side, 0.0)
-        row[0] = 1.0
-        row[1] = 1.0 - np.cos(frequency * tau)
-        row[2] = (frequency * tau) ** 3 / 6.0
-        value = position[i] - belt * (time[i] - edge) + side * belt * (tau - np.sin(frequency * tau) / frequency)
-        if amplitude != 0.0 and tau > 0.0:
-            value -= amplitude * _answer(tau, phase + forcing * edge, side, frequency, forcing)
-        for p in range(3):
-            right[p] += row[p] * value
-            for q in range(3):
-                normal[p, q] += row[p] * row[q]
+        value = position[i] - belt * (time[i] - edge)
+        tau = (time[i] - edge) * side
+        normal[0, 0] += 1.0
+        if tau > 0.0:
+            away, change = 1.0 - np.cos(frequency * tau), (frequency * tau) ** 3 / 6.0
+            value += side * belt * (tau - np.sin(frequency * tau) / frequency)
+            if amplitude != 0.0:
+                value -= amplitude * _answer(tau, phase + forcing * edge, side, frequency, forcing)
+            right[1] += away * value
+            right[2] += change * value
+            normal[0, 1] += away
+            normal[0, 2] += change
+            normal[1, 1] += away * away
+            normal[1, 2] += away * change
+            normal[2, 2] += change * change
+        right[0] += value
         total += value * value
+    normal[1, 0], normal[2, 0], normal[2, 1] = normal[0, 1], normal[0, 2], normal[1, 2]
     normal[2, 2] += ridge**2
     fitted = np.linalg.solve(normal, right)
     return total - right @ fitted, fitted
