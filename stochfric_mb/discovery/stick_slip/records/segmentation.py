@@ -61,15 +61,11 @@ def slips_of(record: Record, noise: Noise | None = None) -> list[tuple[int, int]
     belt = record.mechanism.belt_velocity
     enter = max(ENTER_NOISE * deviation, ENTER * belt)
     leave = max(LEAVE_NOISE * deviation, LEAVE * belt)
-    inside = np.flatnonzero(relative > enter)
     shortest, apart = record.samples(0.64), record.samples(0.3)
+    ends = np.flatnonzero(np.diff(np.concatenate(([False], relative > leave, [False]))))
+    seen = np.logical_or.reduceat(relative > enter, ends[::2]) if len(ends) else np.zeros(0, dtype=bool)
     slips: list[list[int]] = []
-    for part in filter(len, np.split(inside, np.flatnonzero(np.diff(inside) > 1) + 1)):
-        begin, end = int(part[0]), int(part[-1])
-        while begin > 0 and relative[begin - 1] > leave:
-            begin -= 1
-        while end < len(relative) - 1 and relative[end + 1] > leave:
-            end += 1
+    for begin, end in zip(ends[::2][seen].tolist(), (ends[1::2][seen] - 1).tolist(), strict=True):
         if slips and begin - slips[-1][1] < apart:
             slips[-1][1] = end
         else:
