@@ -196,7 +196,7 @@ def _outcome(
     places = [with_idle(dataclasses.replace(p, mended=bool(readings))) for p in places]
     # an answer with a name has no term without one
     places[0] = with_unnamed(dataset, places[0]) if as_read is None else _with_readings(places[0], as_read)
-    notes += _run_notes(dataset)
+    notes += _run_notes(dataset) + _not_corrected(source)
     result = verdict(dataset, places, notes, floor, readings, channel, mostly=as_read is not None)
     pictures = tuple(map(friction_picture, places))
     scenario = augmented(dataset.scenario, places, readings)
@@ -339,6 +339,19 @@ def _hardly_sliding(source: Balances) -> tuple[str, str, list[ForceBalance]] | N
 
 def _windows(balances: Sequence[ForceBalance]) -> int:
     return sum(int(s.sliding.sum()) for s in balances)
+
+
+def _not_corrected(source: Balances) -> list[str]:
+    """Return that an uncertainty is stated of numbers of the mechanism that no data correct, if one is."""
+    mechanism, doubts = source.dataset.scenario.mechanism, source.dataset.scenario.uncertainty
+    corrected = dict.fromkeys(n.name for place in source.places for n in source.nuisances(place))
+    idle = [name for name, doubt in doubts.items() if doubt > 0.0 and name not in corrected and hasattr(mechanism, name)]
+    if not idle:
+        return []
+    return [
+        f"the uncertainty of {', '.join(idle)} is not used, and what is stated is taken as exact: records correct "
+        f"{', '.join(corrected) or 'nothing'} here, and friction by mu_k"
+    ]
 
 
 def _run_notes(dataset: Dataset) -> list[str]:

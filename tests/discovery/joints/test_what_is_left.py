@@ -15,6 +15,7 @@ from stochfric_mb.discovery.driven_joint.decision.selection import Selector
 from stochfric_mb.discovery.driven_joint.place import place_outcome
 from stochfric_mb.discovery.driven_joint.source import source_of
 from stochfric_mb.measurement import Dataset
+from stochfric_mb.scenario import any_scenario_from_dict
 from tests.discovery.joints.test_parts import coulomb, grease, pair, scenario, sine_run
 
 
@@ -186,6 +187,20 @@ def test_a_drive_that_is_larger_by_a_factor_is_no_mass_where_friction_is_known(h
         assert again.gap.baseline == pytest.approx(number.value * outcome.result.gap.augmented, rel=1e-6)
 
 
+def test_a_gear_that_was_left_out_is_a_factor_of_the_drive():
+    """No motion needs 1/30 of the stated mass: what is beyond any belief is looked for as far as the data take it."""
+
+    def at_the_motor(run):
+        return dataclasses.replace(run, channels=run.channels | {"force": run.channels["force"] / 30.0})
+
+    measured = pair(grease)
+    stated = dataclasses.replace(measured.scenario, uncertainty={"mass": 0.05, "mu_k": 0.1, "offset": 0.1})
+    result = joint_outcome(dataclasses.replace(measured, scenario=stated, runs=tuple(map(at_the_motor, measured.runs)))).result
+    assert [e.kind for e in result.effects] == ["drive_gain", "viscous_friction"]
+    number = result.effects[0].parameters["drive_factor"]
+    assert number.low < 30.0 < number.high
+
+
 def test_a_mass_that_nobody_doubts_is_no_surer_than_the_drive():
     """Nothing is stated of how sure the numbers are: a heavier mass and a weaker drive are one motion."""
     measured = pair(coulomb, mass=2.4)
@@ -213,3 +228,44 @@ def test_a_factor_of_the_drive_that_is_not_named_is_exact_again(monkeypatch):
     assert {n.name for n in place.nuisances} - {n.name for n in idle.nuisances} == {"drive_factor"}
     assert idle.selected.nuisances == idle.nuisances
     assert at_bound(idle).startswith("needs mass")  # what believed numbers make of it
+
+
+@pytest.mark.parametrize("off", [0.1, -0.1])
+def test_the_length_of_a_pendulum_is_corrected_as_surely_as_it_is_stated(off):
+    """Taken as exact, a length that is a tenth off is a spring, or a load that friction grows with."""
+    mass, length, gravity = 2.0, 0.3, 9.81
+    measured = pair(coulomb, mass=mass * length**2 * (1.0 + off) ** 2, gain=8.0)
+
+    def about_an_axis(run):
+        weight = mass * gravity * length * (1.0 + off) * np.sin(run.channels["position"])
+        return dataclasses.replace(
+            run, channels={"position": run.channels["position"], "torque": run.channels["force"] + weight}
+        )
+
+    def asked(**uncertainty):
+        tables = {
+            "schema": "stochfric.scenario/1",
+            "mechanism": {"kind": "hinge_pendulum", "mass": mass, "length": length, "normal_force": 20.0},
+            "law": {"kind": "coulomb", "mu_s": 0.1, "mu_k": 0.1},
+            "uncertainty": uncertainty,
+            "simulation": {"duration": 8.0, "output_step": 1.0e-3},
+        }
+        known = any_scenario_from_dict(tables)
+        return joint_outcome(
+            dataclasses.replace(measured, scenario=known, runs=tuple(map(about_an_axis, measured.runs)))
+        ).result
+
+    result = asked(length=0.1)
+    assert result.verdict == "none"
+    # a change of it by a tenth changes its square by a hundredth more than the slope there says
+    assert result.parameters["length"].value == pytest.approx(length * (1.0 + off), rel=0.005)
+    assert asked(inertia=0.1, normal_force=0.1).verdict != "none"
+
+
+def test_an_uncertainty_of_what_no_data_correct_is_told():
+    stated = dataclasses.replace(pair(coulomb).scenario, uncertainty={"mass": 0.05, "normal_force": 0.3, "mu_k": 0.1})
+    result = joint_outcome(dataclasses.replace(pair(coulomb), scenario=stated)).result
+    (note,) = (n for n in result.notes if "is not used" in n)
+    assert "normal_force" in note
+    assert "records correct mass here" in note
+    assert not any("is not used" in n for n in joint_outcome(pair(coulomb)).result.notes)

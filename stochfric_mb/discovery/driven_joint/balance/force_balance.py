@@ -51,7 +51,7 @@ class Nuisance:
 
 @dataclasses.dataclass(frozen=True)
 class ForceBalance:
-    """driven = sum of nuisance columns times (value - stated) + friction, at the centres of windows.
+    """driven = sum of nuisance columns times (value - stated), bends times its square + friction, at the centres of windows.
 
     ``driven`` is the driving force less inertia, gravity and all else that the stated model says, friction left out.
     """
@@ -80,6 +80,8 @@ class ForceBalance:
     """Whether the joint slides one way all through the window, shape (n_centres,)."""
     white: Mapping[int, float] = dataclasses.field(default_factory=dict[int, float])
     """Derivative -> white noise of what enters the balance with it."""
+    bends: Mapping[str, Array] = dataclasses.field(default_factory=dict[str, Array])
+    """Nuisance that enters by its square -> half the change of its column per unit of it, shape (n_centres,)."""
     before: float = 0.0
     """Distance slid in the pieces of the same record that come before this one [m or rad]."""
     temperature: Array | None = None

@@ -42,11 +42,11 @@ UNITS = {
         "mass": "kg", "damping": "N s/m", "offset": "N", "piston_area": "m^2", "force_gain": "N/V", DRIVE_FACTOR: "-",
     },
     "hinge_pendulum": {
-        "mass": "kg", "inertia": "kg m^2", "damping": "N m s/rad", "offset": "N m", "torque_gain": "N m/V", DRIVE_FACTOR: "-",
+        "mass": "kg", "length": "m", "inertia": "kg m^2", "damping": "N m s/rad", "offset": "N m", "torque_gain": "N m/V", DRIVE_FACTOR: "-",
     },
 }  # fmt: skip
 """Numbers of the mechanisms that may be corrected, and their units."""
-POSITIVE = ("mass", "inertia", "damping", "piston_area", DRIVE_FACTOR)
+POSITIVE = ("mass", "length", "inertia", "damping", "piston_area", DRIVE_FACTOR)
 """Numbers that cannot be negative."""
 HELD = 0.5
 """How much later than its sample a drive acts that a controller holds until its next sample [samples], on average."""
@@ -111,6 +111,11 @@ class PlainBalances(Balances):
             seen = [t.factor * window.through(t.signal, t.derivative, shift)[window.centres] for t in of]
             columns[number] = np.sum(seen, axis=0)
             total = total - values[number] * columns[number]
+        bends: dict[str, Array] = {}
+        if isinstance(joint, HingePendulum):
+            weight = joint.mass * joint.gravity * window.through(np.sin(q))[window.centres]
+            bends["length"] = joint.mass * window.through(q, 2)[window.centres]
+            columns["length"] = weight + 2.0 * joint.length * bends["length"]
         drive = next(n for n in DRIVEN if n in terms)
         columns[DRIVE_FACTOR] = values[drive] / joint.drive_factor * columns[drive]
         velocity = window.through(q, 1)
@@ -127,6 +132,7 @@ class PlainBalances(Balances):
             load_by_drive=load_by_drive,
             driven=total,
             columns={k: v for k, v in columns.items() if k != "drive"},
+            bends=bends,
             sliding=slides(window, velocity, least) & window.covered(late),
             white=noise,
             before=distance_before(run, self.dataset.runs, lambda r: narrowest(r).through(position_of(r), 1)),

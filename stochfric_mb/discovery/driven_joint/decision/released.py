@@ -26,7 +26,7 @@ from stochfric_mb.effects.traits import MORE_DAMPING, OTHER_AREA
 
 Array = npt.NDArray[np.float64]
 
-INERTIAL = ("mass", "inertia", "armature")
+INERTIAL = ("mass", "length", "inertia", "armature")
 """Numbers of what moves."""
 BEYOND = {
     **dict.fromkeys((*INERTIAL, *PAYLOADS.values()), "payload"), **dict.fromkeys(OF_THE_DRIVE, "drive_gain"),

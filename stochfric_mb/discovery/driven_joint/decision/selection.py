@@ -21,7 +21,7 @@ from stochfric_mb.discovery.driven_joint.fit.evidence import evidence, settings_
 from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, fit, prior_weight, settled
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
 from stochfric_mb.discovery.driven_joint.fit.wave_scan import tried
-from stochfric_mb.discovery.driven_joint.search.candidate_fits import Beside, CandidateFits, Found, may_be_zero
+from stochfric_mb.discovery.driven_joint.search.candidate_fits import Beside, CandidateFits, Found, is_none, may_be_zero
 from stochfric_mb.discovery.driven_joint.search.candidates import Candidate
 from stochfric_mb.discovery.inference.paired import Paired
 
@@ -238,10 +238,11 @@ class Selector:
         return beyond_beliefs(current, self._balances, self._nuisances, self._noise, beside=beside, without=self._without)
 
     def _without_zero(self, final: JointFit, effects: list[Trial]) -> tuple[JointFit, list[Trial]]:
-        """Drop effects whose size may be zero beside those selected after them: nothing is said by them."""
+        """Drop effects that are none, or may be, beside those selected after them: nothing is said by them."""
         while True:
             first = len(final.model.effects) - len(effects)
-            empty = next((i for i in range(len(effects)) if may_be_zero(final, first + i)), None)
+            at = range(len(effects))
+            empty = next((i for i in at if may_be_zero(final, first + i) or is_none(final, first + i)), None)
             if empty is None:
                 return final, effects
             others = tuple(e for i, e in enumerate(final.model.effects) if i != first + empty)

@@ -47,7 +47,8 @@ class Belief:
 
     def given_up(self, model: JointModel, nuisances: Sequence[Nuisance]) -> tuple[JointModel, list[Nuisance]]:
         """Return a model and the numbers of its mechanism without this belief."""
-        return self._as_firm(model, nuisances, WIDE * self.deviation)
+        # a factor that nobody stated may be a gear that was left out
+        return self._as_firm(model, nuisances, WIDE * (self.deviation if self.stated else abs(self.value)))
 
     def held(self, model: JointModel, nuisances: Sequence[Nuisance]) -> tuple[JointModel, list[Nuisance]]:
         """Return a model and the numbers of its mechanism with this belief, which had been given up."""

@@ -84,7 +84,8 @@ class JointModel:
         for n in nuisances:
             if n.name in balance.columns:
                 value = self.nuisances.get(n.name, n.value)
-                rest = rest - (value - n.value) * balance.columns[n.name]
+                off = value - n.value
+                rest = rest - off * (balance.columns[n.name] + off * balance.bends.get(n.name, 0.0))
                 if n.name in OF_THE_DRIVE:
                     by_drive = by_drive * value / n.value
         if changes is not None:
