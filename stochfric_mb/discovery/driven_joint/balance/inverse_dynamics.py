@@ -42,7 +42,8 @@ UNITS = {
         "mass": "kg", "damping": "N s/m", "offset": "N", "piston_area": "m^2", "force_gain": "N/V", DRIVE_FACTOR: "-",
     },
     "hinge_pendulum": {
-        "mass": "kg", "length": "m", "inertia": "kg m^2", "damping": "N m s/rad", "offset": "N m", "torque_gain": "N m/V", DRIVE_FACTOR: "-",
+        "mass": "kg", "length": "m", "inertia": "kg m^2", "damping": "N m s/rad", "offset": "N m", "torque_gain": "N m/V",
+        DRIVE_FACTOR: "-",
     },
 }  # fmt: skip
 """Numbers of the mechanisms that may be corrected, and their units."""
