@@ -54,6 +54,8 @@ class Case:
     """What the extraction adds to the truth in the stated model [N], shape (N_FEATURES,)."""
     between: float = 0.0
     """Part of a sample by which the simulation begins earlier [-]: its samples then fall elsewhere in the slip."""
+    averaged: frozenset[str] = frozenset()
+    """Kinds of waves over whose phases the features are a median: a slip that stands for all is simulated without them."""
 
 
 def cases_of(pool: Pool, model: Model) -> list[Case]:
@@ -204,7 +206,7 @@ def predict(model: Model, case: Case) -> Array | None:
 
     A declared scatter is left out: medians are compared, and one draw of it is not the median.
     """
-    model = dataclasses.replace(model, process=None)
+    model = dataclasses.replace(model.without(case.averaged), process=None)
     record = case.record
     box = record.mechanism
     margin = 3.3 / record.angular_frequency

@@ -288,14 +288,13 @@ class _Simulation:
         return [(c, confirm(self.cases, self._begin(c), self.study.uncertainty)) for c in candidates]
 
     def _begin(self, candidate: Candidate) -> Model:
-        """Return the model with a candidate where fitting begins: of ways far apart at that which a few steps bring nearest."""
-        ways = [with_candidate(self.model, c, self.study.pool) for c in (candidate, *candidate.others)]
-        so_far = self.before.model
-        if not all(_near(getattr(ways[0].law, name), getattr(so_far.law, name)) for name in ("mu_s", "mu_k")):
-            # estimated beside marks that look like theirs, coefficients of friction may be of another rig
-            ways.append(dataclasses.replace(ways[0], law=so_far.law, corrections=so_far.corrections))
-        if len(ways) == 1:
-            return ways[0]
+        """Return the model with a candidate where fitting begins: of ways far apart at that which a few steps bring nearest.
+
+        Estimated beside marks that look like theirs, coefficients of friction may be of another rig: those of the model so far
+        are of this one.
+        """
+        screened, *others = (with_candidate(self.model, c, self.study.pool) for c in (candidate, *candidate.others))
+        ways = [screened, *(dataclasses.replace(way, law=self.before.model.law) for way in (screened, *others))]
         rough = [confirm(self.cases, way, self.study.uncertainty, evaluations=ROUGH) for way in ways]
         return min(rough, key=lambda r: r.chi2).model
 
@@ -317,11 +316,6 @@ def _of_another_rig(model: Model, kind: str) -> Where:
     numbers = " and ".join(f"{name} {100.0 * abs(by):.2g} % {'above' if by > 0.0 else 'below'}" for name, by in off.items())
     text = f"a rig with its {numbers} what is stated would slip so; beside that, {kind} explains no more"
     return Where(OTHER_RIG, text)
-
-
-def _near(one: float, other: float) -> bool:
-    """Return whether two coefficients of friction differ by a factor of two at most: no fit starts beyond."""
-    return 0.5 < one / other < 2.0
 
 
 def _lacking(fitted: Confirmed, before: Confirmed) -> bool:

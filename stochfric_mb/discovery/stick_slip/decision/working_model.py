@@ -108,8 +108,13 @@ class WorkingModel:
         """Take the slips that simulated ones are compared with, if that has not been done."""
         if not self.cases:
             self.cases = cases_of(steady(self.baseline, candidates, self.faults), self.model)
+            self._average_over(self.model.waves)
             self.confirmed = confirm(self.cases, self.model, self.study.uncertainty) if self.cases else None
             self.unaided = self.unaided or self.confirmed
+
+    def _average_over(self, waves: frozenset[str]) -> None:
+        """Take the slips that simulated ones are compared with as medians over the phases of waves."""
+        self.cases = [dataclasses.replace(c, averaged=c.averaged | waves) for c in self.cases]
 
     def take(self, chosen: Chosen, details: dict[str, object]) -> bool:
         """Take an effect into the model, and out of the features; return whether it is worth a place beside the others."""
@@ -130,6 +135,8 @@ class WorkingModel:
             evidence = likely("slips", chosen.candidate.score)
             self.named.append(selected(kind, evidence, before, chosen.class_, self.shape_left))
         self.taken.append(chosen.candidate)
+        if chosen.candidate.is_wave and not chosen.simulated:
+            self._average_over(frozenset({kind}))
         if kind == kind_with_signature(LATE):
             self._put_on_time()
         else:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -125,9 +125,21 @@ class Model:
 
     def without_last(self, kind: str) -> Model:
         """Return the model without its last effect of a kind."""
-        place = max(i for i, e in enumerate(self.effects) if e.kind == kind)
-        own = {run: (*v[:place], *v[place + 1 :]) for run, v in self.own.items()}
-        return dataclasses.replace(self, effects=(*self.effects[:place], *self.effects[place + 1 :]), own=own)
+        last = max(i for i, e in enumerate(self.effects) if e.kind == kind)
+        return self._with_those([i for i in range(len(self.effects)) if i != last])
+
+    def without(self, kinds: Collection[str]) -> Model:
+        """Return the model without its effects of some kinds."""
+        return self._with_those([i for i, e in enumerate(self.effects) if e.kind not in kinds]) if kinds else self
+
+    def _with_those(self, places: Sequence[int]) -> Model:
+        own = {run: tuple(values[i] for i in places) for run, values in self.own.items()}
+        return dataclasses.replace(self, effects=tuple(self.effects[i] for i in places), own=own)
+
+    @property
+    def waves(self) -> frozenset[str]:
+        """Kinds of its effects that have a phase of their own in each run."""
+        return frozenset(e.kind for e in self.effects if e.own_to_run and e.group != "sensor")
 
     @property
     def left_open(self) -> frozenset[str]:
