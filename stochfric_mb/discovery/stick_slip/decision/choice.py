@@ -285,18 +285,21 @@ class _Simulation:
         return tried
 
     def _simulated(self, candidates: Sequence[Candidate]) -> list[Trial]:
-        return [(c, confirm(self.cases, self._begin(c), self.study.uncertainty)) for c in candidates]
+        return [(c, self._fitted(c)) for c in candidates]
 
-    def _begin(self, candidate: Candidate) -> Model:
-        """Return the model with a candidate where fitting begins: of ways far apart at that which a few steps bring nearest.
+    def _fitted(self, candidate: Candidate) -> Confirmed:
+        """Return the model with a candidate, fitted from where marks have it, and from that of ways far apart which a few steps
+        bring nearest.
 
         Estimated beside marks that look like theirs, coefficients of friction may be of another rig: those of the model so far
         are of this one.
         """
         screened, *others = (with_candidate(self.model, c, self.study.pool) for c in (candidate, *candidate.others))
-        ways = [screened, *(dataclasses.replace(way, law=self.before.model.law) for way in (screened, *others))]
-        rough = [confirm(self.cases, way, self.study.uncertainty, evaluations=ROUGH) for way in ways]
-        return min(rough, key=lambda r: r.chi2).model
+        marked, *others = (dataclasses.replace(way, law=self.before.model.law) for way in (screened, *others))
+        rough = [confirm(self.cases, way, self.study.uncertainty, evaluations=ROUGH) for way in (marked, screened, *others)]
+        nearest = min(rough, key=lambda r: r.chi2)
+        begins = [rough[0].model] if nearest is rough[0] else [rough[0].model, nearest.model]
+        return min((confirm(self.cases, m, self.study.uncertainty) for m in begins), key=lambda f: f.chi2)
 
 
 def _worth_simulating(mine: Sequence[Candidate], most: int) -> list[Candidate]:
