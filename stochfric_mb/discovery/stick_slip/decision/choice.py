@@ -288,8 +288,7 @@ class _Simulation:
         return [(c, self._fitted(c)) for c in candidates]
 
     def _fitted(self, candidate: Candidate) -> Confirmed:
-        """Return the model with a candidate, fitted from where marks have it, and from that of ways far apart which a few steps
-        bring nearest.
+        """Return the model with a candidate, fitted from where marks have it and from where a few steps bring it nearest.
 
         Estimated beside marks that look like theirs, coefficients of friction may be of another rig: those of the model so far
         are of this one.
