@@ -74,8 +74,9 @@ def test_forecasts_are_those_of_a_true_model(answer):
 
 
 def test_a_fit_begins_with_the_friction_of_the_rig():
-    """A camera on its slider: marks of its mode are those of a lighter mass on a softer spring, with coefficients 40 % too small,
-    from where no fit finds back."""
+    """A camera on its slider: marks of its mode are those of a lighter mass on a softer spring, whose coefficients are 40 % too
+    small, and no fit finds back from there.
+    """
     stated = rig(
         0.35, 0.22, {"mass": 0.01, "stiffness": 0.02, "damping": 0.3, "normal_force": 0.02, "mu_s": 0.1, "mu_k": 0.1},
         mechanism__mass=2.4, mechanism__damping=2.5, mechanism__stiffness=5000.0, mechanism__normal_force=24.0,
