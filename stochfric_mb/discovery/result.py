@@ -151,6 +151,11 @@ class Result:
     """Numbers behind the report: noise, slips, calibration, confirmation, scores of the channels."""
 
     @property
+    def believed(self) -> dict[str, Interval]:
+        """`parameters` by the name that ``result.json`` gives them."""
+        return self.parameters
+
+    @property
     def leads(self) -> Gap | None:
         """The gap of the score that leads; None where there is none."""
         return {"gap": self.gap, "slip_forces": self.slip_forces, "readings": self.readings}[self.leading]
@@ -174,7 +179,7 @@ class Result:
             "leading": self.leading,
             "not_identifiable": list(self.not_identifiable),
             "next_experiment": self.next_experiment,
-            "believed": {k: dataclasses.asdict(v) for k, v in self.parameters.items()},
+            "believed": {k: dataclasses.asdict(v) for k, v in self.believed.items()},
             "notes": list(self.notes),
             "power": self.power,
             "details": self.details,
