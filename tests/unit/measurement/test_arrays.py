@@ -16,7 +16,7 @@ TIME = np.arange(3000) / RATE
 ANGLE = 0.6 * np.sin(2.0 * TIME) + 0.2 * np.sin(5.0 * TIME)
 
 
-def hinge(**law):
+def hinge():
     """Return the scenario of a hinge."""
     return any_scenario_from_dict(
         {
