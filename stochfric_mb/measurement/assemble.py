@@ -110,6 +110,7 @@ def assemble(entry: RunEntry, *, rotational: bool | None) -> Run:
         covariates=covariates,
         units={k: units.get(k, "") for k in (*channels, *covariates)},
         file_units=file_units,
+        turned=tuple(k for k in channels if entry.sign.get(k) == -1.0),
         constants=dict(table.constants),
         sample_interval=grid.interval,
         source=str(entry.file),

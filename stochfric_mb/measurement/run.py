@@ -48,6 +48,8 @@ class Run:
     """Unit of each channel, an SI unit, and of each covariate, of any kind; empty: the file does not say it."""
     file_units: Mapping[str, str] = dataclasses.field(default_factory=dict[str, str])
     """Unit of time and of each channel as its file (or the dataset) says it."""
+    turned: tuple[str, ...] = ()
+    """Channels that the dataset turns round, by ``sign``."""
     constants: Mapping[str, float] = dataclasses.field(default_factory=dict[str, float])
     """Single numbers that the file holds beside its columns, in its own units."""
     sample_interval: float
