@@ -16,7 +16,7 @@ from stochfric_mb.measurement.readers import read_table
 from stochfric_mb.measurement.run import Role, Run
 from stochfric_mb.measurement.sampling import FROZEN, Places, longest_still, require_finite, require_growing, uniform_grid
 from stochfric_mb.measurement.table import Table
-from stochfric_mb.measurement.units import to_si
+from stochfric_mb.measurement.units import same_unit, to_si
 
 Array = npt.NDArray[np.float64]
 
@@ -183,7 +183,8 @@ def _named(entry: RunEntry, table: Table, *, any_name: bool) -> tuple[dict[str, 
     notes += [
         f"{q} is taken to be in {entry.units[q]}, as its run says, and not in {unit}, as the file's header does"
         for q, unit in stated.items()
-        if entry.units.get(q, unit) != unit and q not in entry.scale  # what is scaled may be in another unit
+        # what is scaled may be in another unit
+        if q in entry.units and q not in entry.scale and not same_unit(entry.units[q], unit)
     ]
     units = stated | dict(entry.units)
     return {q: table.columns[name] for q, name in sources.items()}, units, notes
