@@ -88,13 +88,15 @@ class Gap:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What must be said where the effects do not bring the model closer to the held-out runs."""
-        if self.augmented <= (1.0 + criteria.CLOSES_NOTHING) * self.recalibrated:
-            return ()
+        """What must be said where effects, or fitted numbers, do not bring the model closer to the held-out runs."""
         unit = "" if self.unit == "-" else f" {self.unit}"
-        return (
-            f"on the held-out runs the augmented model is off by more ({self.augmented:.3g}{unit}) than the recalibrated one "
-            f"({self.recalibrated:.3g}{unit})",
+        errors = ("augmented", self.augmented, "recalibrated", self.recalibrated), (
+            "recalibrated", self.recalibrated, "stated", self.baseline,
+        )  # fmt: skip
+        return tuple(
+            f"on the held-out runs the {worse} model is off by more ({a:.3g}{unit}) than the {better} one ({b:.3g}{unit})"
+            for worse, a, better, b in errors
+            if a > (1.0 + criteria.CLOSES_NOTHING) * b
         )
 
     @property
