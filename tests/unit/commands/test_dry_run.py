@@ -10,8 +10,8 @@ import pytest
 from click.testing import CliRunner
 
 from stochfric_mb import load_scenario
-from stochfric_mb.commands.dry_run import only_records
 from stochfric_mb.__main__ import main
+from stochfric_mb.commands.dry_run import only_records
 from stochfric_mb.measurement.scales import slip_spans
 from stochfric_mb.reference import simulate
 from stochfric_mb.report.record_picture import COLUMNS, _thinned, record
