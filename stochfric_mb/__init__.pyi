@@ -40,9 +40,11 @@ from stochfric_mb.laws.smooth import Smooth as Smooth
 from stochfric_mb.laws.stribeck import Stribeck as Stribeck
 from stochfric_mb.laws.tanh import Tanh as Tanh
 from stochfric_mb.measurement import Dataset as Dataset
+from stochfric_mb.measurement import Run as Run
 from stochfric_mb.measurement import load_dataset as load_dataset
 from stochfric_mb.mechanisms import BeltBox as BeltBox
 from stochfric_mb.scenario import Scenario as Scenario
+from stochfric_mb.scenario import load_any_scenario as load_any_scenario
 from stochfric_mb.scenario import load_scenario as load_scenario
 from stochfric_mb.trajectory import Trajectory as Trajectory
 

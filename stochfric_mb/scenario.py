@@ -227,7 +227,8 @@ def load_scenario(source: str | Path, *, law: str | None = None, overrides: Sequ
     if not isinstance(scenario.mechanism, BeltBox):
         raise InputError(
             f"{source}: the engines simulate the belt_box by itself; mechanism {scenario.mechanism.kind!r} is for measured "
-            "data: use it as the scenario of a dataset, with stochfric discover (mjcf also: stochfric ensemble --engine warp)"
+            "data: use it as the scenario of a dataset, with stochfric discover (mjcf also: stochfric ensemble --engine warp), "
+            "in Python with load_any_scenario"
         )
     return cast("Scenario[BeltBox]", scenario)
 

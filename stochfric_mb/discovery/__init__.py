@@ -26,8 +26,8 @@ def discover(
 
     Args:
         dataset: a folder with ``dataset.toml``, that file, one measured file (then ``scenario`` is needed), or a
-            `Dataset`.
-        scenario: the present model; replaces the data set's own.
+            `Dataset`, such as one of arrays.
+        scenario: the present model; replaces the one that a file names.
         progress: called with the name of each stage as it begins.
 
     Raises:
@@ -36,10 +36,10 @@ def discover(
     from threadpoolctl import threadpool_limits
 
     from stochfric_mb.discovery.stick_slip.workflow import discover_belt_box
-    from stochfric_mb.measurement.dataset import Dataset, load_dataset
+    from stochfric_mb.measurement.dataset import Dataset, checked, load_dataset
     from stochfric_mb.mechanisms import BeltBox
 
-    data = dataset if isinstance(dataset, Dataset) else load_dataset(dataset, scenario)
+    data = checked(dataset) if isinstance(dataset, Dataset) else load_dataset(dataset, scenario)
     with threadpool_limits(1, user_api="blas"):  # thousands of small systems: a pool of threads waits longer than it works
         if not isinstance(data.scenario.mechanism, BeltBox):
             from stochfric_mb.discovery.driven_joint import joint_outcome

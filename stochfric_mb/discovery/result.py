@@ -88,13 +88,15 @@ class Gap:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What must be said where the effects do not bring the model closer to the held-out runs."""
-        if self.augmented <= (1.0 + criteria.CLOSES_NOTHING) * self.recalibrated:
-            return ()
+        """What must be said where effects, or fitted numbers, do not bring the model closer to the held-out runs."""
         unit = "" if self.unit == "-" else f" {self.unit}"
-        return (
-            f"on the held-out runs the augmented model is off by more ({self.augmented:.3g}{unit}) than the recalibrated one "
-            f"({self.recalibrated:.3g}{unit})",
+        errors = ("augmented", self.augmented, "recalibrated", self.recalibrated), (
+            "recalibrated", self.recalibrated, "stated", self.baseline,
+        )  # fmt: skip
+        return tuple(
+            f"on the held-out runs the {worse} model is off by more ({a:.3g}{unit}) than the {better} one ({b:.3g}{unit})"
+            for worse, a, better, b in errors
+            if a > (1.0 + criteria.CLOSES_NOTHING) * b
         )
 
     @property
@@ -151,6 +153,11 @@ class Result:
     """Numbers behind the report: noise, slips, calibration, confirmation, scores of the channels."""
 
     @property
+    def believed(self) -> dict[str, Interval]:
+        """`parameters` by the name that ``result.json`` gives them."""
+        return self.parameters
+
+    @property
     def leads(self) -> Gap | None:
         """The gap of the score that leads; None where there is none."""
         return {"gap": self.gap, "slip_forces": self.slip_forces, "readings": self.readings}[self.leading]
@@ -174,7 +181,7 @@ class Result:
             "leading": self.leading,
             "not_identifiable": list(self.not_identifiable),
             "next_experiment": self.next_experiment,
-            "believed": {k: dataclasses.asdict(v) for k, v in self.parameters.items()},
+            "believed": {k: dataclasses.asdict(v) for k, v in self.believed.items()},
             "notes": list(self.notes),
             "power": self.power,
             "details": self.details,

@@ -14,9 +14,9 @@ from stochfric_mb.errors import InputError, require_name
 from stochfric_mb.measurement.quantities import KNOWN, known_name, split_header
 from stochfric_mb.measurement.readers import read_table
 from stochfric_mb.measurement.run import Role, Run
-from stochfric_mb.measurement.sampling import FROZEN, Places, longest_still, require_growing, uniform_grid
+from stochfric_mb.measurement.sampling import FROZEN, Places, longest_still, require_finite, require_growing, uniform_grid
 from stochfric_mb.measurement.table import Table
-from stochfric_mb.measurement.units import to_si
+from stochfric_mb.measurement.units import same_unit, to_si
 
 Array = npt.NDArray[np.float64]
 
@@ -91,10 +91,7 @@ def assemble(entry: RunEntry, *, rotational: bool | None) -> Run:
     channels = {k: v[kept] * entry.sign.get(k, 1.0) for k, v in columns.items() if k in KNOWN}
     covariates = {k: v[kept] * entry.sign.get(k, 1.0) for k, v in columns.items() if k not in KNOWN}
     for name, values in channels.items():
-        _require_finite(name, values, places)
-    for name in [k for k, v in covariates.items() if not np.isfinite(v).all()]:
-        del covariates[name]
-        notes.append(f"covariate {name!r} has missing values and is left out")
+        require_finite(name, values, places)
     if rotational is not False:  # before interpolation, which would put readings between the two ends of the turn
         notes += [said for group in (channels, covariates) for k in group if (said := _unwrapped(group, k, units.get(k, "")))]
     grid = uniform_grid(time, places, max_gap=entry.max_gap)
@@ -113,6 +110,7 @@ def assemble(entry: RunEntry, *, rotational: bool | None) -> Run:
         covariates=covariates,
         units={k: units.get(k, "") for k in (*channels, *covariates)},
         file_units=file_units,
+        turned=tuple(k for k in channels if entry.sign.get(k) == -1.0),
         constants=dict(table.constants),
         sample_interval=grid.interval,
         source=str(entry.file),
@@ -185,7 +183,8 @@ def _named(entry: RunEntry, table: Table, *, any_name: bool) -> tuple[dict[str, 
     notes += [
         f"{q} is taken to be in {entry.units[q]}, as its run says, and not in {unit}, as the file's header does"
         for q, unit in stated.items()
-        if entry.units.get(q, unit) != unit and q not in entry.scale  # what is scaled may be in another unit
+        # what is scaled may be in another unit
+        if q in entry.units and q not in entry.scale and not same_unit(entry.units[q], unit)
     ]
     units = stated | dict(entry.units)
     return {q: table.columns[name] for q, name in sources.items()}, units, notes
@@ -259,13 +258,3 @@ def _within(time: Array, entry: RunEntry) -> npt.NDArray[np.bool_]:
             f"{np.nanmax(time):g} s"
         )
     return kept
-
-
-def _require_finite(name: str, values: Array, places: Places) -> None:
-    bad = np.flatnonzero(~np.isfinite(values))
-    if bad.size:
-        n = f" ({bad.size} such rows)" if bad.size > 1 else ""
-        raise InputError(
-            f"{places.at(int(bad[0]))}: {name} is missing or not finite{n}; remove or correct the row, or cut it away with "
-            "time_range"
-        )

@@ -14,6 +14,7 @@ import numpy as np
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.assemble import RunEntry, assemble
 from stochfric_mb.measurement.entries import SCHEMA, run_entries
+from stochfric_mb.measurement.quantities import KNOWN
 from stochfric_mb.measurement.run import Run, apply_settings
 from stochfric_mb.measurement.sampling import MIN_PIECE, GapError
 from stochfric_mb.measurement.signs import run_sign_error
@@ -35,7 +36,7 @@ class Dataset:
 
     title: str
     """A line for people."""
-    scenario_path: Path | None
+    scenario_path: Path | None = None
     """File of the scenario; None if it was given as an object."""
     scenario: Scenario[Any]
     """The present model."""
@@ -66,6 +67,11 @@ def load_dataset(path: str | Path, scenario: str | Path | Scenario[Any] | None =
         InputError: something in it cannot be used; names the file, the key or line, the rule and the remedy.
         MissingEngineError: a library that reads one of its files is not installed.
     """
+    if not isinstance(path, str | Path):  # pyright: ignore[reportUnnecessaryIsInstance]
+        raise InputError(
+            f"a {type(path).__name__} is no dataset: give a file or folder, or make Run objects of arrays and a Dataset of "
+            'these (docs/discovery.md, "Records in arrays")'
+        )
     path = Path(path)
     if path.is_dir():
         path = path / FILE
@@ -90,15 +96,11 @@ def _described(path: Path, scenario: str | Path | Scenario[Any] | None, plausibl
         raise InputError(f"{path}: {error}") from None
     for entry in entries:
         apply_settings(model, entry.settings, f"{path}: run {entry.name!r}")
-    stated_in = "the scenario" if source is None else str(source)
     runs = tuple(run for entry in entries for run in _pieces(entry, model))
     if plausible:
-        runs = tuple(_checked(run, model, stated_in) for run in runs)
-    fit = tuple(run for run in runs if run.role == "fit")
-    runs = tuple(_seen_in_fit(run, fit) if run.role == "test" else run for run in runs)
+        runs = tuple(_plausible(run, model, _stated_in(source)) for run in runs)
     dataset = Dataset(title=str(tables.get("title", "")), scenario_path=source, scenario=model, runs=runs)
-    _require_roles(path, dataset)
-    return dataset
+    return checked(dataset, str(path))
 
 
 def _alone(path: Path, scenario: str | Path | Scenario[Any] | None, plausible: bool) -> Dataset:
@@ -106,10 +108,9 @@ def _alone(path: Path, scenario: str | Path | Scenario[Any] | None, plausible: b
     if scenario is None:
         raise InputError(f"{path}: a measured file alone says nothing about the rig; give --scenario SCENARIO")
     model, source = _scenario(scenario)
-    stated_in = "the scenario" if source is None else str(source)
     pieces = _pieces(RunEntry(file=path, name=path.stem), model)
     if plausible:
-        pieces = [_checked(run, model, stated_in) for run in pieces]
+        pieces = [_plausible(run, model, _stated_in(source)) for run in pieces]
     start, end = float(pieces[0].time[0]), float(pieces[-1].time[-1])
     cut = end - HELD_OUT * (end - start)
     first = [run.between(start, cut, name=f"{run.name} (first two thirds)", role="fit") for run in pieces]
@@ -154,9 +155,41 @@ def _with_note(run: Run, note: str) -> Run:
     return dataclasses.replace(run, notes=(note, *run.notes))
 
 
-def _checked(run: Run, scenario: Scenario[Any], stated_in: str) -> Run:
+def checked(dataset: Dataset, where: str = "dataset") -> Dataset:
+    """Return a dataset whose runs of arrays are as plausible as those of files, with a note on samples in both roles.
+
+    Args:
+        dataset: runs, each sound by itself, and the model.
+        where: what it is, for messages.
+
+    Raises:
+        InputError: no run to fit or none held out, a setting that is none of the mechanism's, or values that cannot be right.
+    """
+    model, stated_in = dataset.scenario, _stated_in(dataset.scenario_path)
+    for run in dataset.runs:
+        run.mechanism(model)
+    runs = [run if run.source else _plausible(run, model, stated_in) for run in dataset.runs]
+    fit = tuple(run for run in runs if run.role == "fit")
+    runs = tuple(_seen_in_fit(run, fit) if run.role == "test" else run for run in runs)
+    dataset = dataclasses.replace(dataset, runs=runs)
+    _require_roles(where, dataset)
+    return dataset
+
+
+def _stated_in(source: Path | None) -> str:
+    return "the scenario" if source is None else str(source)
+
+
+def _plausible(run: Run, scenario: Scenario[Any], stated_in: str) -> Run:
     """Return the run once it is plausible, with notes if it hardly fits the model, or its friction has the wrong sign."""
-    doubts = (require_plausible(run, scenario, stated_in), run_sign_error(run, scenario))
+    units = {k: q.units_of(rotates(scenario))[0] for k, q in KNOWN.items()}
+    shown = dataclasses.replace(run, source=f"run {run.name!r}", units=units | dict(run.units), file_units=units)
+    shown = run if run.source else shown
+    try:
+        doubts = (require_plausible(shown, scenario, stated_in), run_sign_error(run, scenario))
+    except InputError as error:
+        remedy = "" if run.source else " (runs of arrays have no such keys: bring the arrays to SI units and signs beforehand)"
+        raise InputError(f"{error}{remedy}") from None
     return dataclasses.replace(run, notes=(*run.notes, *(str(doubt) for doubt in doubts if doubt)))
 
 
@@ -177,14 +210,14 @@ def _named(tables: Mapping[str, Any], folder: Path) -> Path | str:
     return folder / name if (folder / name).exists() or Path(name).suffix else name
 
 
-def _require_roles(path: Path, dataset: Dataset) -> None:
+def _require_roles(where: str, dataset: Dataset) -> None:
     roles = ", ".join(f"{run.name}: {run.role}" for run in dataset.runs)
     if not dataset.fit:
-        raise InputError(f'{path}: no run to fit ({roles}); give at least one run role = "fit"')
+        raise InputError(f'{where}: no run to fit ({roles}); give at least one run role = "fit"')
     if not dataset.test:
         raise InputError(
-            f'{path}: no run is held out ({roles}), so that nothing could be scored; give a run role = "test", or cut one file '
-            "into two runs with time_range"
+            f'{where}: no run is held out ({roles}), so that nothing could be scored; give a run role = "test", or cut one '
+            "file into two runs with time_range"
         )
 
 
@@ -196,7 +229,7 @@ def _seen_in_fit(test: Run, fit: tuple[Run, ...]) -> Run:
         "or time_range = [first, last] that do not overlap"
         for name, n in shared.items()
     )
-    return dataclasses.replace(test, notes=(*test.notes, *notes)) if notes else test
+    return dataclasses.replace(test, notes=tuple(dict.fromkeys((*test.notes, *notes)))) if notes else test
 
 
 def _shared(one: Run, other: Run) -> int:
@@ -209,4 +242,4 @@ def _shared(one: Run, other: Run) -> int:
     return first.time.size if pairs and all(itertools.starmap(np.array_equal, pairs)) else 0
 
 
-__all__ = ["FILE", "SCHEMA", "Dataset", "Run", "load_dataset", "rotates"]
+__all__ = ["FILE", "SCHEMA", "Dataset", "Run", "checked", "load_dataset", "rotates"]

@@ -11,6 +11,7 @@ from typing import Any, cast
 
 from stochfric_mb.errors import InputError, require_name, require_number
 from stochfric_mb.measurement.assemble import RunEntry
+from stochfric_mb.measurement.run import require_role
 
 SCHEMA = "stochfric.dataset/1"
 DATA = "STOCHFRIC_DATA"
@@ -80,8 +81,7 @@ def _entry(run: Mapping[str, Any], number: int, folder: Path) -> RunEntry:
     for key in ("file", "role"):
         if not isinstance(run.get(key), str):
             raise InputError(f'{where}: {key} = {run.get(key)!r}; write {key} = "{"run.csv" if key == "file" else "fit"}"')
-    if run["role"] not in ("fit", "test"):
-        raise InputError(f'{where}: role = {run["role"]!r}; it is "fit" (used to fit) or "test" (held out)')
+    require_role(where, run["role"])
     file = Path(expanded(run["file"]))
     return RunEntry(
         file=file if file.is_absolute() else folder / file,

@@ -73,6 +73,38 @@ def require_growing(time: Array, places: Places) -> None:
     )
 
 
+def require_finite(name: str, values: Array, places: Places) -> None:
+    """Return if a column, float64[n], has no missing value.
+
+    Raises:
+        InputError: it has; names the line.
+    """
+    bad = np.flatnonzero(~np.isfinite(values))
+    if bad.size:
+        n = f" ({bad.size} such rows)" if bad.size > 1 else ""
+        raise InputError(
+            f"{places.at(int(bad[0]))}: {name} is missing or not finite{n}; remove or correct the row, or cut it away with "
+            "time_range"
+        )
+
+
+def require_interval(time: Array, interval: float, places: Places) -> None:
+    """Return if time stamps [s], float64[n], are ``interval`` [s] apart, as near as `uniform_grid` asks.
+
+    Raises:
+        InputError: they are not, or the interval is not positive.
+    """
+    if not interval > 0.0:
+        raise InputError(f"{places.file}: sample_interval = {interval:g} s; give the positive distance between samples")
+    away = np.abs(time - time[:1] - interval * np.arange(time.size)).max(initial=0.0)
+    if away > max(UNIFORM * interval, _rounding(time, interval)):
+        shown = float(np.median(np.diff(time)))
+        raise InputError(
+            f"{places.file}: sample_interval = {interval:.6g} s, but time stamps are {shown:.6g} s apart (median) and up to "
+            f"{away:.3g} s off such a grid; give their distance, or interpolate onto a uniform time"
+        )
+
+
 @dataclasses.dataclass(frozen=True)
 class Grid:
     """The uniform grid of a record."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -39,6 +39,10 @@ WINDOWS = (8, 24, 72, 216)
 """Half widths of the windows through which an acceleration is taken from a position [samples]."""
 SURE = 0.05
 """Largest relative standard error of a mass that counts as seen [-]."""
+SURE_OF_A_FACTOR = 1.0 / 6.0
+"""The same of a mass that is asked for a factor of two: three standard errors are half of it [-]."""
+CLEARLY = 0.5
+"""Part of the error as labelled that an angle in another unit leaves at most where it is clearly the better one [-]."""
 SHARE = 0.1
 """Least share of the driving force's deviation that inertia must have for a mass to be seen [-]."""
 REPEATED = 0.25
@@ -240,7 +244,8 @@ def inertia(run: Run, joint: PrismaticJoint | HingePendulum, angle: float = 1.0)
 
     Least squares of the driving force on acceleration, velocity, its sign, position, pressure and a constant, all seen through
     one window; that of the windows in which the mass is surest. At a hinge the weight of the arm comes in as sine and cosine
-    of the angle in place of the position.
+    of the angle in place of the position. An angle in another unit than labelled that leaves far less of the force shows its
+    mass with fewer digits, too: what no term of these is, such as a spring, leaves it unsure.
 
     Args:
         run: the record.
@@ -260,13 +265,38 @@ def inertia(run: Run, joint: PrismaticJoint | HingePendulum, angle: float = 1.0)
     drive = joint.drive_factor * drive
     others = [np.sin(angle * position), np.cos(angle * position)] if hinge else [position]
     others += [run.channels[name] for name in ("pressure",) if name in run.channels]
-    fits = [_force_balance(angle * position, drive, others, run.sample_interval, m) for m in WINDOWS if 20 * m < position.size]
-    mass, error, friction, share = min(fits, key=lambda fit: fit[1] / abs(fit[0]), default=(0.0, 1.0, 0.0, 0.0))
-    return (mass, friction) if mass > 0.0 and friction > 0.0 and error < SURE * mass and share > SHARE else None
+    h, widths = run.sample_interval, [m for m in WINDOWS if 20 * m < position.size]
+    fits = [_force_balance(angle * position, drive, others, h, m) for m in widths]
+    if not fits:
+        return None
+    i = min(range(len(fits)), key=lambda n: fits[n].error / abs(fits[n].mass))
+    sure, seen = SURE, fits[i]
+    if angle != 1.0 and seen.error >= sure * seen.mass:
+        as_labelled = [np.sin(position), np.cos(position), *others[2:]]
+        if seen.left < CLEARLY * _force_balance(position, drive, as_labelled, h, widths[i]).left:
+            sure = SURE_OF_A_FACTOR
+    if seen.mass > 0.0 and seen.friction > 0.0 and seen.error < sure * seen.mass and seen.share > SHARE:
+        return seen.mass, seen.friction
+    return None
 
 
-def _force_balance(position: Array, drive: Array, others: list[Array], h: float, m: int) -> tuple[float, float, float, float]:
-    """Return mass, its standard error, friction, and the deviation of the inertial force over that of the driving force."""
+class _Fit(NamedTuple):
+    """What a balance of forces shows, in the units of the file."""
+
+    mass: float
+    """Force over acceleration; NaN for 0."""
+    error: float
+    """Its standard error."""
+    friction: float
+    """Dry friction."""
+    share: float
+    """Deviation of the inertial force over that of the driving force [-]."""
+    left: float
+    """Deviation of the driving force that no term explains."""
+
+
+def _force_balance(position: Array, drive: Array, others: list[Array], h: float, m: int) -> _Fit:
+    """Return what least squares of a driving force on acceleration, sign of velocity, velocity and others show."""
     rows = slice(2 * m, -2 * m, m)  # about one row a window
     velocity = smooth(position, m * h, h, derivative=1)
     terms = [smooth(position, m * h, h, derivative=2), smooth(np.sign(velocity), m * h, h), velocity]
@@ -281,4 +311,5 @@ def _force_balance(position: Array, drive: Array, others: list[Array], h: float,
     error = math.sqrt(float(rest @ rest) / max(len(rest) - len(values), 1) * float(basis[0] @ basis[0]))
     spread = float(driving.std())
     share = abs(values[0]) * float((columns[:, 0] / sizes[0]).std()) / spread if spread > 0.0 else 0.0
-    return float(values[0] / sizes[0]) or math.nan, error / float(sizes[0]), float(values[1] / sizes[1]), share
+    mass = float(values[0] / sizes[0]) or math.nan
+    return _Fit(mass, error / float(sizes[0]), float(values[1] / sizes[1]), float(share), float(rest.std()))

@@ -37,12 +37,14 @@ class SignError:
     """Lower bound of the mean power at confidence `CONFIDENCE` [W], > 0."""
     created: float
     """Energy brought in, as a part of all that is exchanged, 0.5 to 1 [-]; with a mere sign error near 1."""
+    remedy: str = "give sign = { friction_force = -1 }"
+    """How the sign is turned."""
 
     def __str__(self) -> str:
         """Return the finding and its remedy."""
         return (
             f"friction brings in energy ({self.mean_power:.3g} W on average, {100 * self.created:.0f} % of what it exchanges): "
-            "its sign, or that of the velocity, is probably wrong; give sign = { friction_force = -1 }"
+            f"its sign, or that of the velocity, is probably wrong; {self.remedy}"
         )
 
 
@@ -95,7 +97,13 @@ def run_sign_error(run: Run, scenario: Scenario[Any]) -> SignError | None:
     if belt is None:
         belt = np.full(friction.size, float(getattr(run.mechanism(scenario), "belt_velocity", 0.0)))
     inside = slice(HALF_WIDTH, -HALF_WIDTH)
-    return probable_sign_error(friction[inside], (motion - belt)[inside])
+    found = probable_sign_error(friction[inside], (motion - belt)[inside])
+    return None if found is None else dataclasses.replace(found, remedy=turned_round(run, "friction_force"))
+
+
+def turned_round(run: Run, name: str) -> str:
+    """Return how the sign of a channel is turned: by a key, or without the one that turns it already."""
+    return f"{'take out' if name in run.turned else 'give'} sign = {{ {name} = -1 }}"
 
 
 def _velocity(run: Run, velocity: str, position: str) -> Array | None:

@@ -73,6 +73,17 @@ def to_si(values: Array, unit: str, quantity: Quantity, *, rotational: bool | No
     raise InputError(f"{wrong}; give {_choices(quantity, targets)}{lever}")
 
 
+def same_unit(one: str, other: str) -> bool:
+    """Return whether two spellings are of one unit: ``mNm`` and ``mN m``, ``°`` and ``deg``."""
+    if one == other:
+        return True
+    try:
+        first, second = (_unit(_registry(), unit) for unit in (one, other))
+    except Exception:  # pint raises errors of many kinds for text that is no unit
+        return False
+    return bool(first == second)
+
+
 def _as_arc(quantity: Quantity, targets: Sequence[str]) -> str:
     """Return how an angle, or its rate, is read where friction acts along a line; empty: it is read in metres nowhere."""
     if len(targets) != 1 or not targets[0].startswith("m"):
@@ -86,12 +97,16 @@ def _as_arc(quantity: Quantity, targets: Sequence[str]) -> str:
 
 def _parsed(units: Any, unit: str, quantity: Quantity, targets: Sequence[str]) -> Any:
     try:
-        text = _spelled(unit)
-        if re.search(r"\d[\s)]*\*\*", text):
-            raise ValueError("a power of a number is no unit; pint would work it out, however large")
-        return units.Unit(text)
+        return _unit(units, unit)
     except Exception:  # pint raises errors of many kinds for text that is no unit, AssertionError among them
         raise InputError(f"unit {unit!r} of {quantity.name} is unknown; give {_choices(quantity, targets)}") from None
+
+
+def _unit(units: Any, unit: str) -> Any:
+    text = _spelled(unit)
+    if re.search(r"\d[\s)]*\*\*", text):
+        raise ValueError("a power of a number is no unit; pint would work it out, however large")
+    return units.Unit(text)
 
 
 def _spelled(unit: str) -> str:

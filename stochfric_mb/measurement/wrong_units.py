@@ -11,6 +11,7 @@ from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.run import Run
 from stochfric_mb.measurement.sampling import FROZEN, longest_still
 from stochfric_mb.measurement.scales import FACTORS, IN_DEGREES, SPEED_FITS, Array, Cause, Shown, inertia, likeliest, shown
+from stochfric_mb.measurement.signs import turned_round
 from stochfric_mb.measurement.units import ALONG_AN_ARC
 from stochfric_mb.mechanisms import BeltBox, HingePendulum, PrismaticJoint
 from stochfric_mb.scenario import Scenario
@@ -169,7 +170,7 @@ def _require_rate(run: Run) -> None:
     if likeness < -ALIKE:
         raise InputError(
             f"{run.source}: velocity is negative where position rises, and positive where it falls (correlation "
-            f"{likeness:.2f}): turn one of the two, sign = {{ velocity = -1 }}"
+            f"{likeness:.2f}): turn one of the two: {turned_round(run, 'velocity')}"
         )
     if likeness > ALIKE and not _may_be(factor):
         raise InputError(

@@ -8,6 +8,7 @@ from typing import Any
 from markupsafe import Markup
 
 from stochfric_mb.discovery.driven_joint.balance.inverse_dynamics import ABSOLUTE
+from stochfric_mb.discovery.driven_joint.decision.estimates import FACTORS
 from stochfric_mb.discovery.outcome import Outcome
 from stochfric_mb.effects import effect_class, effect_kinds, words_of
 from stochfric_mb.report.comparison import UNITS
@@ -51,6 +52,8 @@ DISPLAYED = {"m": ((1.0e-3, 1.0e6, "µm"), (1.0, 1.0e3, "mm")), "m/s": ((1.0, 1.
 """Unit -> (below this, multiplied by that, shown as)."""
 
 
+STATED_AS = {shown: name for name, shown in FACTORS.items()}
+"""Number of a joint in the result -> its key under ``[uncertainty]``."""
 MOST_DIGITS = 7
 """Significant digits that an interval is shown with, at most."""
 AFTERWARDS = 3
@@ -167,9 +170,11 @@ def _beliefs(content: Mapping[str, Any]) -> list[dict[str, Any]]:
     beyond, unmeasured = about.get("moved_beyond_uncertainty", {}), about.get("not_measured", [])
     rows: list[dict[str, Any]] = []
     for name, fitted in content["believed"].items():
-        value = stated["law"].get(name, stated["mechanism"].get(name)) if isinstance(stated.get("law"), Mapping) else None
+        own = name.rpartition(".")[2]  # of a joint of a model
+        key = STATED_AS.get(own, own) if own not in sure else own
+        value = stated["law"].get(own, stated["mechanism"].get(own)) if isinstance(stated.get("law"), Mapping) else None
         rows.append({
-            "name": name, "stated": value, "sure": sure.get(name), "absolute": name in ABSOLUTE, "fitted": fitted,
+            "name": name, "stated": value, "sure": sure.get(key), "absolute": key in ABSOLUTE, "fitted": fitted,
             "moved": beyond.get(name), "measured": name not in unmeasured,
         })  # fmt: skip
     return rows

@@ -134,6 +134,24 @@ assert read_table(pathlib.Path("short.csv")).units["position"] == "mm"
             6: ENTRY_POINT.format(module="measurement.readers"),
         },
     ),
+    "docs/discovery.md": Setting(
+        code={
+            2: """
+import numpy as np
+def table(seed, t=np.arange(6000) * 2e-3):
+    phase = np.random.default_rng(seed).uniform(0.0, 6.0, 2)
+    q, v, a = (0.8 * np.sin(2.0 * t + phase[0] + k) * 2.0**n + 0.2 * np.sin(5.0 * t + phase[1] + k) * 5.0**n
+               for n, k in ((0, 0.0), (1, np.pi / 2), (2, np.pi)))
+    torque = 0.05 * a + 0.3 * v + 1.5 * np.sign(v)
+    noise = np.random.default_rng(seed + 9).standard_normal((2, t.size)) * [[1e-5], [0.01]]
+    return {"time": list(t), "angle": np.degrees(q + noise[0]), "torque": 1e3 * (torque + noise[1])}
+first, second = table(1), table(2)
+open("wrist.toml", "w").write('schema = "stochfric.scenario/1"\\n[mechanism]\\nkind = "hinge_pendulum"\\nmass = 1e-3\\n'
+    'length = 1e-3\\ninertia = 0.05\\nnormal_force = 1.0\\n[law]\\nkind = "coulomb"\\nmu_s = 1.5\\nmu_k = 1.5\\n'
+    '[uncertainty]\\noffset = 0.05\\n[simulation]\\nduration = 12.0\\noutput_step = 2e-3\\n')
+""",
+        }
+    ),
     "docs/discovery_joints_suite.md": Setting(
         shorter={
             "--seeds 0 --out suite": "--list --out suite",

@@ -5,6 +5,7 @@ import importlib
 import importlib.util
 import math
 import tomllib
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -112,6 +113,20 @@ def test_a_payload_is_that_of_bodies_of_their_own(total, tmp_path):
         assert model.body_subtreemass[0] == pytest.approx(1.1 * total + 0.2 + 0.4)
     needed = [inverse(mujoco, m, tuple(np.array([[x, 2.0 * x]]) for x in (0.4, 1.1, 3.0))) for m in (written, fitted)]
     np.testing.assert_allclose(needed[0], needed[1], rtol=1e-12)
+
+
+def test_what_mujoco_says_of_a_file_is_said_once_and_leaves_no_file(tmp_path, monkeypatch, capfd):
+    monkeypatch.chdir(tmp_path)
+    text = (ARM.MODEL / "two_joint_arm.xml").read_text(encoding="utf-8")
+    (tmp_path / "arm.xml").write_text(text.replace('angle="radian"', 'angle="radian" settotalmass="5.8"'), encoding="utf-8")
+    scenario = load_any_scenario(ARM.MODEL / "scenario.toml")
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("default")
+        for _ in range(3):
+            without_friction(mujoco, dataclasses.replace(scenario.mechanism, file=tmp_path / "arm.xml"))
+    assert ["settotalmass" in str(w.message) for w in said] == [True]
+    assert not capfd.readouterr().err
+    assert [file.name for file in tmp_path.iterdir()] == ["arm.xml"]
 
 
 @pytest.mark.parametrize(

@@ -51,7 +51,9 @@ def test_a_lag_begins_at_the_reversal_and_not_where_a_piece_begins(tmp_path):
     source = source_of(Dataset(title="", scenario_path=None, scenario=scenario, runs=(record("fit"), record("test"))))
     plain = JointModel(make_law("coulomb", mu_s=MU_S, mu_k=MU_K), (), {}, LOAD)
     with_memory = dataclasses.replace(plain, effects=(make_effect("frictional_lag", distance=DISTANCE),))
-    without, right = (forward(source, {"j": model}, 0.0).position for model in (plain, with_memory))
+    seen = [forward(source, {"j": model}, 0.0) for model in (plain, with_memory)]
+    without, right = (s.position for s in seen)
+    assert seen[0].unit == "m"
     # a constant friction is 2 N low where a stroke begins, 1/2 of which lasts for the first piece; the right one errs by
     # what the velocity at the start of a piece is off
     assert without > 0.05 * (MU_S - MU_K) * LOAD / MASS * AHEAD**2 / 2.0
@@ -122,7 +124,9 @@ def test_a_joint_that_is_stated_to_stay_is_held(tmp_path):
     source = source_of(Dataset(title="", scenario_path=None, scenario=scenario, runs=runs))
     right = JointModel(make_law("coulomb", mu_s=1.0, mu_k=1.0), (), {}, friction)
     # over both joints; the wrist errs by what its velocity at the start of a piece is off
-    assert forward(source, {"wrist": right}, 0.0).position < 0.01
+    seen = forward(source, {"wrist": right}, 0.0)
+    assert seen.position < 0.01
+    assert seen.unit == "rad"
 
 
 @pytest.mark.parametrize(("unit", "load"), [("N m", 3.0), ("V", 3.0 - 2.0 * 0.5)])

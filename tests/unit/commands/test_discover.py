@@ -221,7 +221,7 @@ def test_the_documentation_names_every_key(rig, tmp_path):
 
 def test_the_example_in_python(rig, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
-    (code,) = re.findall(r"```python\n(.*?)```", PAGE, re.DOTALL)
+    code, _ = re.findall(r"```python\n(.*?)```", PAGE, re.DOTALL)
     exec(compile(code, "docs/discovery.md", "exec"), {})
     assert capsys.readouterr().out == "unknown []\nNone\n"
 

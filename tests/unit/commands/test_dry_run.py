@@ -11,6 +11,7 @@ from click.testing import CliRunner
 
 from stochfric_mb import load_scenario
 from stochfric_mb.__main__ import main
+from stochfric_mb.commands.dry_run import only_records
 from stochfric_mb.measurement.scales import slip_spans
 from stochfric_mb.reference import simulate
 from stochfric_mb.report.record_picture import COLUMNS, _thinned, record
@@ -29,6 +30,17 @@ def _write(path, motion, step=1):
 
 def invoke(*words):
     return CliRunner().invoke(main, [str(w) for w in words])
+
+
+def test_what_may_stand_at_out_is_as_docs_commands_md_says(tmp_path, motion):
+    file = _write(tmp_path / "run.csv", motion)
+    asked = ("discover", file, "--scenario", "kang2015_table1", "--dry-run", "--out", tmp_path / "raw")
+    assert invoke(*asked).exit_code == 0
+    assert only_records(str(tmp_path / "raw"))  # what a discovery replaces by itself
+    assert "--force to replace it" in " ".join(invoke(*asked).output.split())
+    assert invoke(*asked, "--force").exit_code == 0
+    (tmp_path / "raw" / "records.html").rename(tmp_path / "raw" / "result.json")
+    assert "is a folder without records.html" in " ".join(invoke(*asked, "--force").output.split())
 
 
 def test_records_are_drawn_and_the_plan_is_told(tmp_path, motion):

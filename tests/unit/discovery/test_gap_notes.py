@@ -24,6 +24,13 @@ def test_it_is_said_that_a_model_gets_worse(unit, said):
     assert "off by more" in note
 
 
+@pytest.mark.parametrize(("baseline", "said"), [(1.99e-5, False), (1.9e-5, True)])
+def test_it_is_said_that_stated_numbers_were_better(baseline, said):
+    notes = dataclasses.replace(GAP, baseline=baseline).notes
+    assert notes == (("on the held-out runs the recalibrated model is off by more (2e-05 m) than the stated one (1.9e-05 m)",)
+                     if said else ())  # fmt: skip
+
+
 def test_ripples_of_one_frequency_may_have_one_cause():
     belt = make_effect("belt_speed_ripple", amplitude=0.07, frequency=0.1692)
     load, other = (make_effect("normal_load_ripple", amplitude=0.02, frequency=f) for f in (0.1693, 0.25))

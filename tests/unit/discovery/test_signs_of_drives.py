@@ -14,7 +14,7 @@ GAIN = 5.4
 """Torque over current of the motor [N m/A]."""
 
 
-def asked(factor: float, angle: float = 1.0) -> None:
+def asked(factor: float, angle: float = 1.0, turned: tuple[str, ...] = ()) -> None:
     """Ask whether friction takes energy out of a sine, with a torque that is ``factor`` times the right one, and an angle."""
     t = np.arange(round(12.0 * RATE)) / RATE
     q, v, a = -np.cos(2.0 * t), 2.0 * np.sin(2.0 * t), 4.0 * np.cos(2.0 * t)
@@ -27,7 +27,9 @@ def asked(factor: float, angle: float = 1.0) -> None:
         "law": {"kind": "coulomb", "mu_s": 1.0, "mu_k": 1.0},
         "simulation": {"duration": 12.0, "output_step": 1.0e-3},
     }
-    runs = tuple(Run(name=r, role=r, time=t, channels=channels, sample_interval=1.0 / RATE) for r in ("fit", "test"))
+    runs = tuple(
+        Run(name=r, role=r, time=t, channels=channels, sample_interval=1.0 / RATE, turned=turned) for r in ("fit", "test")
+    )
     dataset = Dataset(title="", scenario_path=None, scenario=any_scenario_from_dict(tables), runs=runs)
     require_dissipation(dataset, "", source_of(dataset).balances("", "fit", 0.0))
 
@@ -39,6 +41,11 @@ def test_a_right_drive_is_taken():
 def test_a_drive_that_is_turned_round_has_the_wrong_sign():
     with pytest.raises(InputError, match=r"give sign = \{ torque = -1 \}"):
         asked(-1.0)
+
+
+def test_a_sign_that_is_wrong_because_it_was_turned_is_to_be_taken_out():
+    with pytest.raises(InputError, match=r"is wrong; take out sign = \{ torque = -1 \}"):
+        asked(-1.0, turned=("torque",))
 
 
 def test_a_current_in_the_place_of_a_torque_has_the_wrong_scale():

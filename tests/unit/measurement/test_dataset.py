@@ -47,6 +47,14 @@ def test_a_dataset(rig):
     assert test.mechanism(data.scenario) == dataclasses.replace(data.scenario.mechanism, belt_velocity=1e-3)
 
 
+@pytest.mark.parametrize(("header", "unit", "same"), [("mNm", "mN m", True), ("m/s", "m s-1", True), ("mm", "um", False),
+                                                      ("rpm", "rad/s", False), ("mm", "bananas", False)])  # fmt: skip
+def test_another_spelling_of_a_unit_is_no_other_unit(tmp_path, header, unit, same):
+    csv(tmp_path / "run.csv", time__s=TIME, position__m=POSITION, **{f"load__{header}": TIME})
+    said = only(tmp_path, f'{FIT}\nunits = {{ load = "{unit}" }}').notes
+    assert any(f"taken to be in {unit}" in note for note in said) != same
+
+
 def test_a_bundled_scenario_is_named_by_its_file(rig):
     assert load_dataset(dataset(rig, FIT, TEST)).scenario_path == bundled_scenarios()["kang2015_table1"]
 

@@ -39,6 +39,15 @@ def test_simulated_stick_slip(tmp_path, scenario, trajectory, columns, sign):
         assert error.created > 0.8
 
 
+def test_a_sign_that_the_dataset_turns_wrongly_is_to_be_taken_out(tmp_path, scenario, trajectory):
+    csv(tmp_path / "run.csv", time__s=trajectory.time, position__m=trajectory.position,
+        friction_force__N=trajectory.friction_force)  # fmt: skip
+    runs = ('file = "run.csv"\nrole = "fit"\nsign = { friction_force = -1 }', 'file = "run.csv"\nrole = "test"')
+    wrong, right = load_dataset(dataset(tmp_path, *runs), scenario).runs
+    assert any("is probably wrong; take out sign = { friction_force = -1 }" in note for note in wrong.notes)
+    assert not any("sign" in note for note in right.notes)
+
+
 def test_belt_velocity_as_measured_counts(tmp_path, scenario, trajectory):
     """The belt runs backwards in the file, so that the same force feeds the sliding."""
     n = trajectory.time.size

@@ -10,7 +10,7 @@ import pytest
 
 from stochfric_mb import InputError, load_scenario
 from stochfric_mb.measurement import load_dataset
-from stochfric_mb.measurement.scales import Shown, likeliest, load_in_kilograms, slip_time, stuck_speed
+from stochfric_mb.measurement.scales import Shown, inertia, likeliest, load_in_kilograms, slip_time, stuck_speed
 from stochfric_mb.reference import simulate
 
 from .files import csv, measured
@@ -302,21 +302,27 @@ def test_a_bare_number_of_the_drive_may_be_off_by_any_factor(tmp_path, slide, st
         load_dataset(file, tmp_path / "scenario.toml")
 
 
-@pytest.fixture(scope="module")
-def swing():
+def swung(pace, cam=0.0):
     """An arm of 1.1 kg at 0.4 m in gravity, a bearing with 0.6 N m of friction, and the torque that its motion takes [N m]."""
     time = np.arange(0.0, 20.0, 1.0 / 487.0)
     waves = [(0.9, 0.23, 1.0), (0.5, 0.61, 2.0), (0.25, 1.37, 3.0)]
-    turns = [(a, 2.0 * np.pi * f, p) for a, f, p in waves]
+    turns = [(a, 2.0 * np.pi * f * pace, p) for a, f, p in waves]
     angle = sum(a * np.sin(w * time + p) for a, w, p in turns)
     velocity = sum(a * w * np.cos(w * time + p) for a, w, p in turns)
     acceleration = sum(-a * w**2 * np.sin(w * time + p) for a, w, p in turns)
     noise = np.random.default_rng(5).standard_normal((2, time.size))
-    weight = 1.1 * 9.81 * 0.4 * np.sin(angle)
+    weight = 1.1 * 9.81 * 0.4 * np.sin(angle) + cam * np.abs(np.sin(3.0 * angle))
     torque = 1.1 * 0.4**2 * acceleration + 0.3 * velocity + 0.6 * np.sign(velocity) + weight + 0.01 * noise[0]
     return time, angle + 2e-5 * noise[1], torque
 
 
+@pytest.fixture(scope="module")
+def swing():
+    return swung(1.0)
+
+
+PACE, CAM = 0.4, 3.0
+"""Speed of a slower motion [-] and torque of a cam [N m]."""
 HINGE = """
 schema = "stochfric.scenario/1"
 [mechanism]
@@ -360,6 +366,21 @@ def test_units_at_a_hinge_by_torque_over_acceleration_and_weight(tmp_path, swing
     assert text.startswith(f"{file}: the torque ")
     assert all(remedy in text for remedy in remedies), text
     assert text.count("write ") == len(remedies), text
+
+
+@pytest.mark.parametrize("degrees", [False, True])
+def test_degrees_are_told_beside_what_the_model_lacks(tmp_path, degrees):
+    """A cam leaves the inertia unsure by a tenth: degrees explain the torque, radians do not."""
+    time, angle, torque = swung(PACE, CAM)
+    (tmp_path / "scenario.toml").write_text(HINGE.format(mass=1.0, length=0.4))
+    columns = {"position__rad": np.degrees(angle) if degrees else angle, "torque__N m": torque}
+    file = csv(tmp_path / "run.csv", time__s=time, **columns)
+    if not degrees:
+        data = load_dataset(file, tmp_path / "scenario.toml")
+        assert inertia(data.fit[0], data.scenario.mechanism) is None
+        return
+    with pytest.raises(InputError, match=r'column position \[rad\] is in deg: write units = \{ position = "deg" \}'):
+        load_dataset(file, tmp_path / "scenario.toml")
 
 
 @pytest.mark.parametrize(

@@ -377,3 +377,10 @@ def test_an_interval_has_the_digits_that_tell_its_ends_from_its_value():
 def test_a_question_keeps_its_mark_alone(asked, shown):
     _, text, _ = written(outcome_of(dataclasses.replace(BASE, next_experiment=asked)))
     assert shown in re.sub(r"</span>(\.?)", r"\1<", text)
+
+
+@pytest.mark.parametrize(("details", "said"), [({"places": []}, True), ({}, False)])
+def test_which_direction_an_equation_means_is_said_at_a_joint(details, said):
+    effect = dataclasses.replace(WEAKENING, kind="direction_asymmetry")
+    _, text, _ = written(outcome_of(dataclasses.replace(BASE, effects=(effect,), details=details)))
+    assert ("it is negative while the position grows" in text) == said

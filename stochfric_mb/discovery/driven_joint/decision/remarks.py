@@ -34,10 +34,9 @@ def forward_notes(place: PlaceOutcome) -> list[str]:
     if before.forward is None or after.forward is None:
         return []
     how = "with the controller in the loop" if after.loop is not None else f"{AHEAD:g} s at a time from the measured state"
-    unit = "m or rad" if place.place else "m" if place.fit[0].unit == "N" else "rad"
     return [
-        f"simulated in MuJoCo, {how}, positions of the held-out runs are off by {before.forward:.3g} {unit} recalibrated, by "
-        f"{after.forward:.3g} augmented (rms)"
+        f"simulated in MuJoCo, {how}, positions of the held-out runs are off by {before.forward:.3g} {before.forward_unit} "
+        f"recalibrated, by {after.forward:.3g} augmented (rms)"
     ]
 
 

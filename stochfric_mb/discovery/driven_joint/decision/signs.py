@@ -14,7 +14,7 @@ from stochfric_mb.discovery.driven_joint.source import source_of
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.measurement.run import Run
-from stochfric_mb.measurement.signs import SEGMENTS, probable_sign_error
+from stochfric_mb.measurement.signs import SEGMENTS, probable_sign_error, turned_round
 from stochfric_mb.mechanisms import Mjcf
 
 TURNED = 0.5
@@ -115,7 +115,7 @@ def _remedy(dataset: Dataset, place: str) -> str:
     if isinstance(mechanism, Mjcf):
         return f"turn the sign of the gain of mechanism.drives.{place or next(iter(mechanism.friction))}"
     name = next((k for k in DRIVES if k in dataset.fit[0].channels), DRIVES[0])
-    return f"give sign = {{ {name} = -1 }}"
+    return turned_round(dataset.fit[0], name)
 
 
 def _fits_turned(dataset: Dataset, place: str, balances: Sequence[ForceBalance]) -> list[str]:

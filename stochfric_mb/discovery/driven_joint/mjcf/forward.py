@@ -49,7 +49,9 @@ class Forward:
     """Simulated runs against measured ones."""
 
     position: float
-    """Error of the positions, rms over joints and samples [m or rad]."""
+    """Error of the positions, rms over joints and samples [`unit`]."""
+    unit: str
+    """Unit of the measured positions: m, rad, or both."""
     drive: float | None
     """Error of what the controller gives, relative rms [-]; None without a controller."""
 
@@ -74,7 +76,9 @@ def forward(source: MjcfSource, models: Models, delay: float) -> Forward:
             recorded = plant.loops[joint].recorded[plant.start : plant.end]
             wrong_drive += float(np.sum((output - recorded)[seen] ** 2))
             drive += float(np.sum(recorded[seen] ** 2))
-    return Forward(float(np.sqrt(wrong / count)), float(np.sqrt(wrong_drive / drive)) if drive > 0.0 else None)
+    moving = [n for n in source.names if isinstance(source.mechanism.positions[n], str)]
+    unit = " or ".join(sorted({"rad" if source.rotates(n) else "m" for n in moving}))
+    return Forward(float(np.sqrt(wrong / count)), unit, float(np.sqrt(wrong_drive / drive)) if drive > 0.0 else None)
 
 
 class _Plant:

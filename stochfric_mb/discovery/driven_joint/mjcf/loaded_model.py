@@ -111,14 +111,12 @@ def without_friction(mujoco: Any, mechanism: Mjcf, friction: tuple[str, float, f
         InputError: the file cannot be read.
     """
     try:
-        if friction is None:
-            model = mujoco.MjModel.from_xml_path(str(mechanism.file))
-        else:
+        spec = mujoco.MjSpec.from_file(str(mechanism.file))  # a spec warns as Python does: once, and in no MUJOCO_LOG.TXT
+        if friction is not None:
             attach: Any = importlib.import_module("stochfric_mb.mujoco")
-            spec = mujoco.MjSpec.from_file(str(mechanism.file))
             name, mu_s, mu_k = friction
             attach.add_friction(spec, mechanism.pairs[name].geoms, ElasticStick(mu_s=mu_s, mu_k=mu_k, e_lim=PRESLIDING))
-            model = spec.compile()
+        model = spec.compile()
     except ValueError as error:
         raise InputError(f"mechanism.file = {str(mechanism.file)!r} cannot be read: {error}") from None
     model.dof_frictionloss[:] = 0.0

@@ -63,7 +63,7 @@ def simulated(
             seen = forward(source, models, late)
         else:
             seen = forward(*as_mjcf(dataset, next(iter(models.values()))), late)
-        scores[label] = dataclasses.replace(scores[label], loop=seen.drive, forward=seen.position)
+        scores[label] = dataclasses.replace(scores[label], loop=seen.drive, forward=seen.position, forward_unit=seen.unit)
     if dataset.scenario.controller is not None:
         loops = [joint_loops(run, mechanism, dataset.scenario.controller) for run in dataset.test]
         floor = drive_floor([loop.recorded for of in loops for loop in of.values()])

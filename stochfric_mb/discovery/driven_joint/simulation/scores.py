@@ -42,7 +42,9 @@ class Score:
     loop: float | None
     """Voltage, or another drive, of the simulated closed loop against the measured one, relative rms [-]; None without."""
     forward: float | None = None
-    """Positions of the model run forward in its engine against the measured ones, rms [m or rad]; None where it was not."""
+    """Positions of the model run forward in its engine against the measured ones, rms; None where it was not."""
+    forward_unit: str = ""
+    """Unit of these positions: m, rad, or both where joints are of both kinds."""
 
 
 def score(
