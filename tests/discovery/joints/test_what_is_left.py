@@ -179,6 +179,7 @@ def test_a_drive_that_is_larger_by_a_factor_is_no_mass_where_friction_is_known(h
         number = named.parameters["drive_factor"]
         assert number.low < 1.0 / louder < number.high
         assert "for which no doubt is stated" in named.where.text
+        assert "a gear, a unit or a scale" not in named.where.text
         # the augmented scenario is that drive: asked again, nothing is missing
         assert outcome.scenario.mechanism.drive_factor == pytest.approx(number.value)
         again = joint_outcome(dataclasses.replace(measured, scenario=outcome.scenario)).result
@@ -199,6 +200,7 @@ def test_a_gear_that_was_left_out_is_a_factor_of_the_drive():
     assert [e.kind for e in result.effects] == ["drive_gain", "viscous_friction"]
     number = result.effects[0].parameters["drive_factor"]
     assert number.low < 30.0 < number.high
+    assert "a gear, a unit or a scale" in result.effects[0].where.text
 
 
 def test_a_mass_that_nobody_doubts_is_no_surer_than_the_drive():

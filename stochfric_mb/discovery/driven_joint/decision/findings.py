@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.balance.confounding import Confounded, stand_ins
 from stochfric_mb.discovery.driven_joint.balance.timing import Timing
 from stochfric_mb.discovery.driven_joint.decision.adequacy import at_bound
@@ -140,7 +141,10 @@ def _off(place: PlaceOutcome, number: Released, size: Interval) -> str:
     off = abs(number.belief.off(place.selected.final.model))
     unit = "" if size.unit == "-" else f" {size.unit}"
     how = f": off by {off:.0f} of its stated standard deviations" if number.belief.stated else ", for which no doubt is stated"
-    return f"{number.name}{in_place(place)} is {size.value:.4g}{unit} and not {number.belief.value:.4g}{how}"
+    believed = number.belief.value
+    if believed and not 1.0 / criteria.FACTOR < size.value / believed < criteria.FACTOR:
+        how += "; a gear, a unit or a scale that was left out changes numbers so: check these first"
+    return f"{number.name}{in_place(place)} is {size.value:.4g}{unit} and not {believed:.4g}{how}"
 
 
 def drawn_anew(place: PlaceOutcome) -> list[EffectEstimate]:
