@@ -94,8 +94,11 @@ class JointCompliance(Effect):
 
     @classmethod
     def at_joint(cls, span: JointSpan) -> JointSignature | None:
-        """Return loads that swing at frequencies which the motion excites and the windows show, from the start of a record."""
-        if span.inertia <= 0.0:
+        """Return loads that swing at frequencies which the motion excites and the windows show, from the start of a record.
+
+        A joint that nothing drives has no motor that they could swing behind.
+        """
+        if span.inertia <= 0.0 or not span.drive:
             return None
         low, high = SLOWEST * span.speed / span.stroke, QUICKEST / span.window
         own = LOUD * span.friction

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from stochfric_mb.effects import make_effect
+from stochfric_mb.effects import effect_class, make_effect
+from stochfric_mb.effects.joints import JointSpan
 from stochfric_mb.effects.load_side import FINE, QUICKEST, Link, MotorMotion, load_force
 from stochfric_mb.errors import InputError
 from stochfric_mb.scenario import load_scenario
@@ -113,3 +114,13 @@ def test_it_is_a_driven_joint_alone_that_has_such_a_load():
         with pytest.raises(InputError, match="driven joint"):
             dataclasses.replace(base, effects=(effect,))
     assert not make_effect("backlash", gap=1.0e-3, position=1.0e-3).moves_load
+
+
+@pytest.mark.parametrize("driven", [True, False])
+def test_no_load_swings_behind_a_motor_that_is_not_there(driven):
+    """Blocks that a thrown one took along were a compliance."""
+    span = JointSpan(
+        speed=0.5, stroke=0.2, lowest=0.0, duration=1.0, load=0.0, both_ways=False, friction=2.0, distance=0.2,
+        temperature=None, contact=False, stated_load=20.0, window=0.01, inertia=0.5, drive=driven,
+    )  # fmt: skip
+    assert (effect_class("joint_compliance").at_joint(span) is not None) == driven
