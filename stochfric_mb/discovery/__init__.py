@@ -27,7 +27,7 @@ def discover(
     Args:
         dataset: a folder with ``dataset.toml``, that file, one measured file (then ``scenario`` is needed), or a
             `Dataset`, such as one of arrays.
-        scenario: the present model; replaces the one that a file names.
+        scenario: the present model; replaces the dataset's own.
         progress: called with the name of each stage as it begins.
 
     Raises:
@@ -39,7 +39,7 @@ def discover(
     from stochfric_mb.measurement.dataset import Dataset, checked, load_dataset
     from stochfric_mb.mechanisms import BeltBox
 
-    data = checked(dataset) if isinstance(dataset, Dataset) else load_dataset(dataset, scenario)
+    data = checked(dataset, scenario=scenario) if isinstance(dataset, Dataset) else load_dataset(dataset, scenario)
     with threadpool_limits(1, user_api="blas"):  # thousands of small systems: a pool of threads waits longer than it works
         if not isinstance(data.scenario.mechanism, BeltBox):
             from stochfric_mb.discovery.driven_joint import joint_outcome

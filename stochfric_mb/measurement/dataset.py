@@ -155,16 +155,20 @@ def _with_note(run: Run, note: str) -> Run:
     return dataclasses.replace(run, notes=(note, *run.notes))
 
 
-def checked(dataset: Dataset, where: str = "dataset") -> Dataset:
+def checked(dataset: Dataset, where: str = "dataset", *, scenario: str | Path | Scenario[Any] | None = None) -> Dataset:
     """Return a dataset whose runs of arrays are as plausible as those of files, with a note on samples in both roles.
 
     Args:
         dataset: runs, each sound by itself, and the model.
         where: what it is, for messages.
+        scenario: the present model, in the place of the dataset's own.
 
     Raises:
         InputError: no run to fit or none held out, a setting that is none of the mechanism's, or values that cannot be right.
     """
+    if scenario is not None:
+        model, source = _scenario(scenario)
+        dataset = dataclasses.replace(dataset, scenario=model, scenario_path=source)
     model, stated_in = dataset.scenario, _stated_in(dataset.scenario_path)
     for run in dataset.runs:
         run.mechanism(model)

@@ -118,3 +118,14 @@ def test_a_scenario_for_data_names_its_loader():
 def test_what_is_believed_is_an_attribute():
     numbers = {"mass": Interval(1.0, 0.9, 1.1, "kg")}
     assert Result.believed.fget(SimpleNamespace(parameters=numbers)) is numbers
+
+
+def test_another_model_takes_the_place_of_a_datasets_own():
+    """It was not looked at where the dataset was an object."""
+    known = hinge()
+    given = Dataset(title="", scenario=known, runs=(run(), run("test")))
+    other = dataclasses.replace(known, mechanism=dataclasses.replace(known.mechanism, inertia=0.07))
+    assert checked(given).scenario is known
+    assert checked(given, scenario=other).scenario.mechanism.inertia == 0.07
+    with pytest.raises(InputError):
+        discover(given, scenario="no_such_scenario")
