@@ -116,6 +116,20 @@ def test_patterns_without_a_name_have_one_row_a_slip(slip_study):
     assert all(len(h.columns) == 1 for h in softening(slip_study.pool))
 
 
+def test_what_stands_for_all_phases_of_a_wave_is_simulated_without_it(slip_study, cases):
+    """Its numbers are no business of a fit to such slips."""
+    ripple = make_effect("belt_speed_ripple", amplitude=0.2, frequency=3.0)
+    runs = {s.record.name: ({"phase": 0.4},) for s in slip_study.pool.slips}
+    waved = dataclasses.replace(slip_study.model, effects=(ripple,), own=runs)
+    averaged = [dataclasses.replace(c, averaged=frozenset({ripple.kind})) for c in cases]
+    plain = predict(slip_study.model, cases[0])
+    np.testing.assert_array_equal(predict(waved, averaged[0]), plain)
+    assert np.abs(predict(waved, cases[0]) - plain).max() > 0.01 * np.abs(plain).max()
+    fitted = confirm(averaged, waved, slip_study.uncertainty)
+    assert fitted.model.effects == (ripple,)
+    assert fitted.chi2 == confirm(cases, slip_study.model, slip_study.uncertainty).chi2
+
+
 def test_a_candidate_becomes_an_effect_that_confirmation_bears_out(slip_study, candidates, cases):
     weakening = next(c for c in candidates if c.name == "velocity_weakening")
     model = with_candidate(slip_study.model, weakening, slip_study.pool)

@@ -8,6 +8,8 @@ import pytest
 from stochfric_mb.discovery.driven_joint.balance.balances import Balances
 from stochfric_mb.discovery.driven_joint.source import source_of
 from stochfric_mb.effects import make_effect
+from stochfric_mb.measurement import Dataset, Run
+from stochfric_mb.scenario import any_scenario_from_dict
 from tests.discovery.joints.test_parts import coulomb, pair
 
 
@@ -35,3 +37,24 @@ def test_the_conditions_of_a_balance_are_those_at_its_centres():
     balance = source_of(pair(coulomb)).balances("", "fit", 0.0)[0]
     assert set(balance.factors) == {"direction", "speed", "position", "load", "time", "distance"}
     np.testing.assert_array_equal(balance.factors["speed"], np.abs(balance.velocity[balance.window.centres]))
+
+
+def test_another_length_of_a_pendulum_is_what_its_column_and_bend_say():
+    t = np.arange(4000) / 500.0
+    angle = 0.6 * np.sin(2.0 * t) + 0.2 * np.sin(5.0 * t)
+
+    def driven(length):
+        tables = {
+            "schema": "stochfric.scenario/1",
+            "mechanism": {"kind": "hinge_pendulum", "mass": 1.2, "length": length, "inertia": 0.03, "normal_force": 1.0},
+            "law": {"kind": "coulomb", "mu_s": 0.5, "mu_k": 0.5},
+            "simulation": {"duration": 8.0, "output_step": 2.0e-3},
+        }
+        channels = {"position": angle, "torque": np.sin(3.0 * t)}
+        runs = tuple(Run(name=r, role=r, time=t, channels=channels, sample_interval=1.0 / 500.0) for r in ("fit", "test"))
+        source = source_of(Dataset(title="", scenario=any_scenario_from_dict(tables), runs=runs))
+        return source.balances("", "fit", 0.0)[0]
+
+    stated, longer, off = driven(0.3), driven(0.345), 0.045
+    change = off * (stated.columns["length"] + off * stated.bends["length"])
+    np.testing.assert_allclose(stated.driven - change, longer.driven, atol=1e-12)  # of 2.8 N m, exact but for rounding

@@ -14,6 +14,7 @@ from stochfric_mb.discovery.driven_joint.decision.carry_over import _waves
 from stochfric_mb.discovery.driven_joint.decision.selection import Selector
 from stochfric_mb.discovery.driven_joint.place import place_outcome
 from stochfric_mb.discovery.driven_joint.source import source_of
+from stochfric_mb.effects import make_effect
 from stochfric_mb.measurement import Dataset
 from stochfric_mb.scenario import any_scenario_from_dict
 from tests.discovery.joints.test_parts import coulomb, grease, pair, scenario, sine_run
@@ -230,6 +231,19 @@ def test_a_factor_of_the_drive_that_is_not_named_is_exact_again(monkeypatch):
     assert {n.name for n in place.nuisances} - {n.name for n in idle.nuisances} == {"drive_factor"}
     assert idle.selected.nuisances == idle.nuisances
     assert at_bound(idle).startswith("needs mass")  # what believed numbers make of it
+
+
+def test_a_wave_that_may_as_well_not_be_there_is_dropped():
+    """Pure Coulomb friction: how large the ripple of a gain is along a thousand strokes, no record tells."""
+    measured = pair(coulomb)
+    source = source_of(measured)
+    selector = Selector(source.balances("", "fit", 0.0), source.nuisances(""), source.stated(""))
+    ripple = make_effect("drive_gain_change", ripple=1.0e-4, pitch=0.05, phase=0.3)
+    plain = selector.recalibrated
+    final = selector._fit(dataclasses.replace(plain.model, effects=(ripple,)))
+    kept, effects = selector._without_zero(final, [None])
+    assert effects == []
+    assert kept.model.effects == ()
 
 
 @pytest.mark.parametrize("off", [0.1, -0.1])

@@ -98,3 +98,16 @@ def test_a_model_whose_scatter_has_no_room_cannot_be_simulated(model):
     )
     with pytest.raises(SimulationError, match=r"mu_s = 0\.26 and mu_k = 0\.26 are 0\.00 joint standard deviations apart"):
         scattering.system(make_record("run", np.arange(400) * 1e-3, np.zeros(400), BOX))
+
+
+def test_waves_are_left_out_with_their_phases_and_what_is_along_the_stroke_is_none(model):
+    along_belt = make_effect("position_dependent_friction", amplitude=0.1, wavelength=0.02)
+    along_stroke = make_effect("position_dependent_friction", amplitude=0.1, wavelength=0.02, axis="position")
+    own = {run: (*values, {"phase": 0.1}, {}) for run, values in model.own.items()}
+    fuller = dataclasses.replace(model, effects=(*model.effects, along_belt, along_stroke), own=own)
+    assert fuller.waves() == [1, 2]
+    assert fuller.waves(("position_dependent_friction",)) == [2]
+    left = fuller.without_waves(("position_dependent_friction",))
+    assert left.effects == (*model.effects, along_stroke)
+    assert left.own == {run: (*values, {}) for run, values in model.own.items()}
+    assert fuller.without_waves(()) == fuller

@@ -114,9 +114,8 @@ class PlainBalances(Balances):
             total = total - values[number] * columns[number]
         bends: dict[str, Array] = {}
         if isinstance(joint, HingePendulum):
-            weight = joint.mass * joint.gravity * window.through(np.sin(q))[window.centres]
-            bends["length"] = joint.mass * window.through(q, 2)[window.centres]
-            columns["length"] = weight + 2.0 * joint.length * bends["length"]
+            bends["length"] = joint.mass * columns["inertia"]
+            columns["length"] = joint.mass / joint.length * columns["mass"] + joint.length * bends["length"]
         drive = next(n for n in DRIVEN if n in terms)
         columns[DRIVE_FACTOR] = values[drive] / joint.drive_factor * columns[drive]
         velocity = window.through(q, 1)

@@ -206,7 +206,7 @@ def predict(model: Model, case: Case) -> Array | None:
 
     A declared scatter is left out: medians are compared, and one draw of it is not the median.
     """
-    model = dataclasses.replace(model.without(case.averaged), process=None)
+    model = dataclasses.replace(model.without_waves(case.averaged), process=None)
     record = case.record
     box = record.mechanism
     margin = 3.3 / record.angular_frequency

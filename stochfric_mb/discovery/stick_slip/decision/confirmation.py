@@ -147,7 +147,7 @@ def _free_in(
     """Return what is fitted; of a wave to which the slips keep the phase, but not the frequency."""
     last, units = len(candidate.effects) - 1, NaturalUnits.of_run(cases[0].record)
     if not entrained:
-        averaged = [i for i, e in enumerate(candidate.effects) if e.kind in cases[0].averaged]
+        averaged = candidate.waves(cases[0].averaged)
         return [k for k in free_parameters(candidate, uncertainty, units) if not (k.run or k.owner in averaged)]
     runs = list(dict.fromkeys(case.record.name for case in cases))
     free = [k for k in free_parameters(candidate, uncertainty, units, runs) if not k.run or k.owner == last]

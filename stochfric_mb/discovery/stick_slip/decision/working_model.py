@@ -108,7 +108,7 @@ class WorkingModel:
         """Take the slips that simulated ones are compared with, if that has not been done."""
         if not self.cases:
             self.cases = cases_of(steady(self.baseline, candidates, self.faults), self.model)
-            self._average_over(self.model.waves)
+            self._average_over(frozenset(self.model.effects[i].kind for i in self.model.waves()))
             self.confirmed = confirm(self.cases, self.model, self.study.uncertainty) if self.cases else None
             self.unaided = self.unaided or self.confirmed
 

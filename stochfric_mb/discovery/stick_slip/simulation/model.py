@@ -128,18 +128,19 @@ class Model:
         last = max(i for i, e in enumerate(self.effects) if e.kind == kind)
         return self._with_those([i for i in range(len(self.effects)) if i != last])
 
-    def without(self, kinds: Collection[str]) -> Model:
-        """Return the model without its effects of some kinds."""
-        return self._with_those([i for i, e in enumerate(self.effects) if e.kind not in kinds]) if kinds else self
+    def without_waves(self, kinds: Collection[str]) -> Model:
+        """Return the model without its waves of some kinds."""
+        waves = self.waves(kinds)
+        return self._with_those([i for i in range(len(self.effects)) if i not in waves]) if waves else self
+
+    def waves(self, kinds: Collection[str] | None = None) -> list[int]:
+        """Return the places of its waves, which have a phase of their own in each run, of some kinds or of all."""
+        waves = [i for i, e in enumerate(self.effects) if e.own_to_run and e.group != "sensor"]
+        return waves if kinds is None else [i for i in waves if self.effects[i].kind in kinds]
 
     def _with_those(self, places: Sequence[int]) -> Model:
         own = {run: tuple(values[i] for i in places) for run, values in self.own.items()}
         return dataclasses.replace(self, effects=tuple(self.effects[i] for i in places), own=own)
-
-    @property
-    def waves(self) -> frozenset[str]:
-        """Kinds of its effects that have a phase of their own in each run."""
-        return frozenset(e.kind for e in self.effects if e.own_to_run and e.group != "sensor")
 
     @property
     def left_open(self) -> frozenset[str]:
