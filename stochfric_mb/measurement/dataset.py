@@ -164,14 +164,18 @@ def checked(dataset: Dataset, where: str = "dataset", *, scenario: str | Path | 
         scenario: the present model, in the place of the dataset's own.
 
     Raises:
-        InputError: no run to fit or none held out, a setting that is none of the mechanism's, or values that cannot be right.
+        InputError: no run to fit or none held out, runs of one name, a setting that is none of the mechanism's, or values that
+            cannot be right.
     """
     if scenario is not None:
         model, source = _scenario(scenario)
         dataset = dataclasses.replace(dataset, scenario=model, scenario_path=source)
     model, stated_in = dataset.scenario, _stated_in(dataset.scenario_path)
+    names = [run.name for run in dataset.runs]
     for run in dataset.runs:
         run.mechanism(model)
+        if names.count(run.name) > 1:
+            raise InputError(f"{where}: {names.count(run.name)} runs have the name {run.name!r}; give each run its own")
     runs = [run if run.source else _plausible(run, model, stated_in) for run in dataset.runs]
     fit = tuple(run for run in runs if run.role == "fit")
     runs = tuple(_seen_in_fit(run, fit) if run.role == "test" else run for run in runs)

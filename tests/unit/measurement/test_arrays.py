@@ -129,3 +129,9 @@ def test_another_model_takes_the_place_of_a_datasets_own():
     assert checked(given, scenario=other).scenario.mechanism.inertia == 0.07
     with pytest.raises(InputError):
         discover(given, scenario="no_such_scenario")
+
+
+def test_runs_of_one_name_are_refused():
+    """What is each run's own goes by its name."""
+    with pytest.raises(InputError, match="2 runs have the name 'fit'"):
+        checked(Dataset(title="", scenario=hinge(), runs=(run(), run("test", name="fit"))))
