@@ -44,7 +44,9 @@ Array = npt.NDArray[np.float64]
 
 PHASES = ("phase", "phase_2", "phase_3")
 """Parameters of effects that hang on where their zero of time or place is."""
-GROUPS = ("randomness", "friction law", "friction varies", "mechanism", "sensor")
+OF_MECHANISM = "mechanism"
+"""The group of effects that are no friction but forces of their own, whose form mechanics gives."""
+GROUPS = ("randomness", "friction law", "friction varies", OF_MECHANISM, "sensor")
 """What effects are grouped by."""
 
 # Entries of ``world``.

@@ -22,7 +22,7 @@ from stochfric_mb.discovery.driven_joint.decision.carry_over import with_idle, w
 from stochfric_mb.discovery.driven_joint.decision.selection import Stage
 from stochfric_mb.discovery.driven_joint.decision.signs import require_dissipation
 from stochfric_mb.discovery.driven_joint.decision.verdict import verdict
-from stochfric_mb.discovery.driven_joint.fit.fitting import fit
+from stochfric_mb.discovery.driven_joint.fit.fitting import fit, prior_weight
 from stochfric_mb.discovery.driven_joint.joint_result import JointOutcome, PlaceOutcome
 from stochfric_mb.discovery.driven_joint.place import place_outcome, share_by_delay
 from stochfric_mb.discovery.driven_joint.simulation.augmented import augmented
@@ -72,26 +72,34 @@ def joint_outcome(dataset: Dataset, *, progress: Progress | None = None) -> Join
         dataset, better = (
             dataclasses.replace(x, scenario=dataclasses.replace(x.scenario, controller=None)) for x in (dataset, better)
         )
-    left = _left_by(dataset, better) if readings else 1.0
-    if left >= 1.0 - criteria.MATERIAL:
-        better, readings = dataset, ()
-    mostly = left**2 <= 1.0 - criteria.EXPLAINED_HELD_OUT
-    return _outcome(source_of(better), tell, readings, notes, source_of(dataset) if mostly else None)
+    if not readings:
+        return _outcome(source_of(dataset), tell, (), notes, None)
+    return _outcome(source_of(better), tell, readings, notes, source_of(dataset))
 
 
-def _left_by(given: Dataset, better: Dataset) -> float:
-    """Return the least part that the error of a place's balance keeps with wrong readings replaced, seen alike [-]."""
+def _left_by(as_read: Balances, repaired: Balances, places: Sequence[PlaceOutcome], *, named: bool) -> float:
+    """Return the least part that the error of a place's balance keeps with wrong readings replaced, seen alike [-].
+
+    Args:
+        as_read: balances with the readings as they were.
+        repaired: the same with wrong ones replaced.
+        places: what came of those.
+        named: whether with what is named there, which leaves the readings more of the error than the model without.
+    """
     parts: list[float] = []
-    as_given, repaired = (source_of(x) for x in (given, better))
-    if _hardly_sliding(as_given) is not None:  # as it was read, nothing could be said: a position that is new now and then
+    if _hardly_sliding(as_read) is not None:  # as it was read, nothing could be said: a position that is new now and then
         return 0.0
-    for name in as_given.places:
-        before = as_given.balances(name, "fit", as_given.stated_delay)
+    for place in places:
+        name, delay = place.place, as_read.stated_delay + (place.late if named else 0.0)
+        before = as_read.balances(name, "fit", delay)
         width = round(float(np.median([s.window.half_width / s.window.interval for s in before])))
-        nuisances, model = as_given.nuisances(name), as_given.stated(name)
-        raw, mended_ones = (s.balances(name, "fit", s.stated_delay, width) for s in (as_given, repaired))
+        raw, mended_ones = (s.balances(name, "fit", delay, width) for s in (as_read, repaired))
         seen = [_where_sliding(raw, mended_ones), mended_ones]
-        error, replaced = (fit(model, s, nuisances, noise=model.law.mu_k * model.load).rms for s in seen)
+        model, nuisances, noise = place.stated, place.nuisances, place.stated.law.mu_k * place.stated.load
+        if named and not place.idle:
+            final = place.selected.final
+            model, nuisances, noise = final.model, place.selected.nuisances, prior_weight(final)
+        error, replaced = (fit(model, s, nuisances, noise=noise).rms for s in seen)
         parts.append(replaced / error)
     return min(parts)
 
@@ -159,7 +167,7 @@ def require_usable(dataset: Dataset) -> None:
         return
     _require_controller(dataset.scenario)
     better, readings = mended(dataset)
-    source = source_of(better if readings and _left_by(dataset, better) < 1.0 - criteria.MATERIAL else dataset)
+    source = source_of(better if readings else dataset)
     _require_sliding(source)
     for name in source.places:
         require_dissipation(dataset, name, source.balances(name, "fit", source.stated_delay))
@@ -175,7 +183,7 @@ def _outcome(
         tell: called with what is being done.
         readings: effects that those mean.
         said: what the reader should know already.
-        as_read: balances with the readings as they were, where replacing these explains more than it leaves.
+        as_read: balances with the readings as they were; None: none was wrong.
     """
     _require_sliding(source)
     notes = [*said]
@@ -186,6 +194,8 @@ def _outcome(
         after = _places(moved, tell, [], timed=False)
         if _fits_better(places, after):
             source = moved
+            if as_read is not None:
+                as_read = source_of(brought_forward(as_read.dataset, channel[0], channel[1].seconds))
             before = {p.place: {k: p.scores[k] for k in ("baseline", "recalibrated")} for p in places}
             places = [dataclasses.replace(p, scores=p.scores | before[p.place]) for p in after]
         else:
@@ -194,13 +204,29 @@ def _outcome(
     places.sort(key=_evidence)
     places, floor = _adequate(source, tell, places)
     places = [with_idle(dataclasses.replace(p, mended=bool(readings))) for p in places]
+    told, mostly = _worth_telling(readings, as_read, source, places)
+    notes += [f"{e.appears()[1]}; they are replaced, which changes what is left little" for e in readings if e not in told]
     # an answer with a name has no term without one
-    places[0] = with_unnamed(dataset, places[0]) if as_read is None else _with_readings(places[0], as_read)
+    places[0] = _with_readings(places[0], as_read) if mostly and as_read is not None else with_unnamed(dataset, places[0])
     notes += _run_notes(dataset) + _not_corrected(source)
-    result = verdict(dataset, places, notes, floor, readings, channel, mostly=as_read is not None)
+    result = verdict(dataset, places, notes, floor, told, channel, mostly=mostly)
     pictures = tuple(map(friction_picture, places))
-    scenario = augmented(dataset.scenario, places, readings)
+    scenario = augmented(dataset.scenario, places, told)
     return JointOutcome(result, scenario, dataset, places=tuple(places), pictures=pictures)
+
+
+def _worth_telling(
+    readings: Sequence[Effect], as_read: Balances | None, source: Balances, places: Sequence[PlaceOutcome]
+) -> tuple[Sequence[Effect], bool]:
+    """Return the effects that wrong readings are told as, and whether they explain more of the squared error than they leave.
+
+    They are told where what is named would leave more by a material part with the readings as they were.
+    """
+    if as_read is None:
+        return (), False
+    left = _left_by(as_read, source, places, named=False)
+    material = _left_by(as_read, source, places, named=True) < 1.0 - criteria.MATERIAL
+    return readings if material else (), material and left**2 <= 1.0 - criteria.EXPLAINED_HELD_OUT
 
 
 def _adequate(source: Balances, tell: Progress, places: Sequence[PlaceOutcome]) -> tuple[list[PlaceOutcome], float | None]:

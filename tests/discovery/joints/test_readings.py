@@ -1,13 +1,17 @@
 """Repeated and stray positions are detected, replaced, and distinguished from encoders that are coarse or rest."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 
+from stochfric_mb.discovery.driven_joint import joint_outcome
 from stochfric_mb.discovery.driven_joint.balance.readings import repeated, stray
 from stochfric_mb.discovery.driven_joint.joint_workflow import require_usable
 from stochfric_mb.discovery.inference.stray_readings import without
 from stochfric_mb.measurement import load_dataset
 from tests.discovery.joint_generator.case import Case, write
+from tests.discovery.joints.test_parts import coulomb, pair
 
 RATE, NOISE = 1000.0, 1.0e-5
 
@@ -93,3 +97,30 @@ def test_a_position_that_a_multiplexer_mixes_with_another_channel_is_seen_withou
     case = Case("sensor_outliers.multiplexer_at_the_drive", "mjcf_hinge", 1.0, 1701)
     write(case, tmp_path / "set", tmp_path / "truth.json")
     require_usable(load_dataset(tmp_path / "set"))
+
+
+def with_strays(measured, size):
+    """A dataset in which every 397th position is off by ``size`` [m], to either side."""
+    runs = []
+    for run in measured.runs:
+        x = run.channels["position"].copy()
+        x[41::397] += size * (-1.0) ** np.arange(len(x[41::397]))
+        runs.append(dataclasses.replace(run, channels={**run.channels, "position": x}))
+    return dataclasses.replace(measured, runs=tuple(runs))
+
+
+def test_stray_readings_beside_another_effect_are_told_by_what_is_left_with_it():
+    """A payload is 50 times what the strays leave: beside the stated model they are lost, and hid its number."""
+    measured = with_strays(pair(coulomb, mass=3.0), 1.0e-3)
+    result = joint_outcome(measured).result
+    assert [e.kind for e in result.effects] == ["payload", "sensor_outliers"]
+    assert result.effects[0].parameters["mass"].value == pytest.approx(3.0, rel=2.0e-3)
+    assert result.gap.augmented < 1.5 * result.gap.floor
+    assert not any("replaced" in note for note in result.notes)
+
+
+def test_stray_readings_that_change_little_are_replaced_and_no_finding():
+    measured = with_strays(pair(coulomb), 2.0e-5)  # 20 times the noise of the position, in windows of 8 ms nothing
+    result = joint_outcome(measured).result
+    assert result.verdict == "none"
+    assert sum("they are replaced, which changes what is left little" in note for note in result.notes) == 1

@@ -274,3 +274,21 @@ def test_a_drive_whose_scale_is_in_doubt_is_a_drive(name):
     assert _driven([measured], mechanism)
     assert not _driven([thrown], mechanism)
     assert _driven([measured], mechanism[2:])
+
+
+@pytest.mark.parametrize(
+    ("effect", "left", "stands"), [(SPRING, 4.0, False), (VISCOUS, 4.0, True), (SPRING, 3.0, True), (SPRING, 0.01, True)]
+)
+def test_a_form_that_mechanics_gives_has_to_explain_nearly_all(effect, left, stands):
+    """Squares: 4 of 10 leaves 16 %, which friction may, and a spring may not; 3 leaves 9 %."""
+    selector = selector_of(pair(coulomb))
+    nothing = selector.run()
+    trial = Trial(Candidate(effect.kind, (effect,), "", 1), nothing.final, 50.0, 0.0)
+    shape = nothing.final.remainders[0].shape
+    final, before = (dataclasses.replace(nothing.final, remainders=(np.full(shape, x),)) for x in (left, 10.0))
+    selected = dataclasses.replace(nothing, final=final, recalibrated=before, effects=(trial,))
+    scores = {"recalibrated": Score(10.0, 10.0, None), "augmented": Score(left, left, None)}
+    balances, model = tuple(selector._balances), nothing.recalibrated.model
+    place = PlaceOutcome("", selected, tuple(selector._nuisances), model, balances, balances, scores, 0.005)
+    assert bool(inadequate(place)) is not stands
+    assert criteria.EXPLAINED_BY_MECHANICS == 0.9

@@ -20,6 +20,7 @@ from stochfric_mb.discovery.driven_joint.scatter.between_groups import Coefficie
 from stochfric_mb.discovery.inference.intervals import confidence_interval
 from stochfric_mb.discovery.result import EffectEstimate, Interval, Where
 from stochfric_mb.effects import Effect, effect_class, kind_with_signature, words_of
+from stochfric_mb.effects.contract import OF_MECHANISM
 from stochfric_mb.effects.traits import DRAWN_ANEW, LATE, WANDER
 
 PARTS = 20
@@ -91,7 +92,7 @@ def named_effects(place: PlaceOutcome, pairs: Sequence[Confounded]) -> list[Effe
         axis = trial.candidate.where
         stage = next(s for s in place.selected.stages if s.trials[0] is trial)
         # a force of its own is no friction, whatever it depends on
-        of_its_own = effect.group == "mechanism" and effect.shows
+        of_its_own = effect.group == OF_MECHANISM and effect.shows
         opening = effect.shows[0].upper() + effect.shows[1:] if of_its_own else f"Friction depends on {axis}"
         text = (
             f"{opening}{in_place(place)}: the error falls from {stage.before.rms:.4g} to {trial.fit.rms:.4g} "
