@@ -84,6 +84,16 @@ def test_a_click_that_rings_is_stray_and_a_kick_or_a_step_is_none():
     assert not stray(x + 2.0e-3 * np.exp(-after / 20.0) * np.sin(1.5 * after)).any()  # it rings on
 
 
+def test_steps_of_an_encoder_that_starts_from_rest_are_not_stray():
+    """It rests for most of the record, where nothing differs from a curve, and then turns slowly, by a count now and then."""
+    t = np.arange(9000) / RATE
+    counts = np.round(1.0e-3 * np.maximum(t - 6.0, 0.0) ** 2 / 1.0e-6) * 1.0e-6
+    assert not stray(counts).any()
+    off = counts.copy()
+    off[7000] += 40.0e-6
+    assert np.flatnonzero(stray(off)).tolist() == [7000]
+
+
 @pytest.mark.parametrize("every", [1, 10, 20])
 def test_single_stray_readings_are_found_however_few_samples_come_in_a_period(every):
     x = motion()[::every].copy()
@@ -99,28 +109,34 @@ def test_a_position_that_a_multiplexer_mixes_with_another_channel_is_seen_withou
     require_usable(load_dataset(tmp_path / "set"))
 
 
-def with_strays(measured, size):
-    """A dataset in which every 397th position is off by ``size`` [m], to either side."""
+def with_strays(measured, size, every=397):
+    """A dataset in which one position of ``every`` is off by ``size`` [m], to either side."""
     runs = []
     for run in measured.runs:
         x = run.channels["position"].copy()
-        x[41::397] += size * (-1.0) ** np.arange(len(x[41::397]))
+        x[41::every] += size * (-1.0) ** np.arange(len(x[41::every]))
         runs.append(dataclasses.replace(run, channels={**run.channels, "position": x}))
     return dataclasses.replace(measured, runs=tuple(runs))
 
 
+def drag(q, v):
+    return coulomb(q, v) + 40.0 * v
+
+
 def test_stray_readings_beside_another_effect_are_told_by_what_is_left_with_it():
-    """A payload is 50 times what the strays leave: beside the stated model they are lost, and hid its number."""
-    measured = with_strays(pair(coulomb, mass=3.0), 1.0e-3)
-    result = joint_outcome(measured).result
-    assert [e.kind for e in result.effects] == ["payload", "sensor_outliers"]
-    assert result.effects[0].parameters["mass"].value == pytest.approx(3.0, rel=2.0e-3)
+    """The drag is 60 times what the strays leave: beside the stated model they change nothing, and were lost."""
+    result = joint_outcome(with_strays(pair(drag), 1.0e-4)).result
+    assert [e.kind for e in result.effects] == ["viscous_friction", "sensor_outliers"]
+    assert result.effects[0].parameters["coefficient"].value == pytest.approx(40.0, rel=1.0e-3)
     assert result.gap.augmented < 1.5 * result.gap.floor
     assert not any("replaced" in note for note in result.notes)
 
 
 def test_stray_readings_that_change_little_are_replaced_and_no_finding():
-    measured = with_strays(pair(coulomb), 2.0e-5)  # 20 times the noise of the position, in windows of 8 ms nothing
-    result = joint_outcome(measured).result
+    """20 times the noise of the position, three times a run, and the force is loud."""
+    measured, rng = with_strays(pair(coulomb), 2.0e-5, 2900), np.random.default_rng(4)
+    loud = [r.channels | {"force": r.channels["force"] + 0.3 * rng.standard_normal(len(r.time))} for r in measured.runs]
+    runs = tuple(dataclasses.replace(r, channels=c) for r, c in zip(measured.runs, loud, strict=True))
+    result = joint_outcome(dataclasses.replace(measured, runs=runs)).result
     assert result.verdict == "none"
     assert sum("they are replaced, which changes what is left little" in note for note in result.notes) == 1

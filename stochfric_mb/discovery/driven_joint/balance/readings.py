@@ -122,7 +122,7 @@ def stray(values: Array) -> Mask:
     away = values - np.convolve(values, np.array([-1.0, 4.0, 0.0, 4.0, -1.0]) / 6.0, mode="same")
     away[:2] = away[-2:] = 0.0
     moved = np.abs(np.diff(values))
-    step = float(np.min(moved[moved > 0.0], initial=0.0))
+    step = float(np.min(moved, where=moved > 0.0, initial=np.ptp(values)))  # the resolution, where there is one
     level = max(deviation(away, about=0.0), white_noise(values), step, 1.0e-300)
     far = np.abs(away) > STRAY * level
     alone = far.copy()
