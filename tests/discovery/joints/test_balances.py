@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from stochfric_mb.discovery.driven_joint.balance.balances import Balances
+from stochfric_mb.discovery.driven_joint.simulation.scores import APART, floor_from, noise_floor, white_floor
 from stochfric_mb.discovery.driven_joint.source import source_of
 from stochfric_mb.effects import make_effect
 from stochfric_mb.measurement import Dataset, Run
@@ -58,3 +59,21 @@ def test_another_length_of_a_pendulum_is_what_its_column_and_bend_say():
     stated, longer, off = driven(0.3), driven(0.345), 0.045
     change = off * (stated.columns["length"] + off * stated.bends["length"])
     np.testing.assert_allclose(stated.driven - change, longer.driven, atol=1e-12)  # of 2.8 N m, exact but for rounding
+
+
+def test_windows_without_neighbours_leave_the_white_noise_of_the_channels_as_the_noise():
+    """A free pole with a coarse encoder asks for windows so wide that nothing is known of its noise; it was `unknown`."""
+    source = source_of(pair(coulomb))
+    (balance,) = source.balances("", "fit", 0.0)
+    model, nuisances = source.stated(""), source.nuisances("")
+    plain = noise_floor(model, [balance], nuisances)
+    few = np.zeros_like(balance.sliding)
+    for start in range(0, len(few) - APART, 4 * APART):
+        few[start : start + APART] = True
+    alone = dataclasses.replace(balance, sliding=balance.sliding & few)
+    seen = noise_floor(model, [alone], nuisances)
+    assert seen == white_floor([alone])
+    # both channels have white noise alone, of which the differences tell as much
+    assert seen == pytest.approx(plain, rel=0.1)
+    assert floor_from([alone]).startswith("white noise")
+    assert floor_from([balance]).startswith("differences")

@@ -26,6 +26,7 @@ from stochfric_mb.discovery.driven_joint.decision.remarks import forward_notes, 
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
 from stochfric_mb.discovery.driven_joint.next_experiment import next_experiment
 from stochfric_mb.discovery.driven_joint.search.candidates import candidates, span_of
+from stochfric_mb.discovery.driven_joint.simulation.scores import floor_from
 from stochfric_mb.discovery.result import EffectEstimate, Gap, Result
 from stochfric_mb.effects import Effect, effect_kinds, kind_with_signature, kinds_with
 from stochfric_mb.effects.traits import (
@@ -128,7 +129,7 @@ def _gap(places: Sequence[PlaceOutcome], loop_floor: float | None) -> Gap:
         )  # fmt: skip
     return Gap(
         "inverse_dynamics_sliding", place.fit[0].unit, True, before.sliding, middle.sliding, after.sliding, place.floor,
-        "differences between neighbouring windows that do not overlap"
+        floor_from(place.test)
         + (", and the scatter from stroke to stroke" if place.random is not None and place.random.accounted else ""),
     )  # fmt: skip
 

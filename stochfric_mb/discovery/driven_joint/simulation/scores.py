@@ -90,16 +90,30 @@ def noise_floor(model: JointModel, balances: Sequence[ForceBalance], nuisances: 
     """Return the noise of the balance [N or N m]: second differences between windows that do not overlap.
 
     What friction leaves changes slowly from one window to the next, noise does not (von Neumann 1941). Their median size
-    counts: blows, gaps and skipped teeth come in bursts and are no noise.
+    counts: blows, gaps and skipped teeth come in bursts and are no noise. Where no window has such neighbours it is what white
+    noise of the channels leaves; nan: no such noise shows either.
     """
     parts: list[Array] = []
     model = with_phases(model, balances, nuisances)
     for s in balances:
         r = model.remainder(s, nuisances)
-        inside = s.sliding[: -2 * APART] & s.sliding[APART:-APART] & s.sliding[2 * APART :]
-        parts.append(((r[: -2 * APART] - 2.0 * r[APART:-APART] + r[2 * APART :]) / np.sqrt(6.0))[inside])
+        seconds = (r[: -2 * APART] - 2.0 * r[APART:-APART] + r[2 * APART :]) / np.sqrt(6.0)
+        parts.append(seconds[_has_neighbours(s)])
     differences = np.concatenate(parts)
-    return deviation(differences, about=0.0) if len(differences) else float("nan")
+    return deviation(differences, about=0.0) if len(differences) else white_floor(balances) or float("nan")
+
+
+def floor_from(balances: Sequence[ForceBalance]) -> str:
+    """Return where the noise of the balance is from, in words."""
+    if any(_has_neighbours(s).any() for s in balances):
+        return "differences between neighbouring windows that do not overlap"
+    return "white noise of the channels: no window has neighbours on both sides that do not overlap it"
+
+
+def _has_neighbours(balance: ForceBalance) -> npt.NDArray[np.bool_]:
+    """Return which windows slide together with their next ones to either side that do not overlap them."""
+    s = balance.sliding
+    return s[: -2 * APART] & s[APART:-APART] & s[2 * APART :]
 
 
 def white_floor(balances: Sequence[ForceBalance]) -> float:
