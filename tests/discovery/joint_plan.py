@@ -38,6 +38,8 @@ from .joint_generator.unseen_thirteenth import PAIRS as UNSEEN_THIRTEENTH_PAIRS
 from .joint_generator.unseen_thirteenth import UNSEEN_THIRTEENTH
 from .joint_generator.unseen_twelfth import PAIRS as UNSEEN_TWELFTH_PAIRS
 from .joint_generator.unseen_twelfth import UNSEEN_TWELFTH
+from .joint_generator.unseen_twentieth import PAIRS as UNSEEN_TWENTIETH_PAIRS
+from .joint_generator.unseen_twentieth import UNSEEN_TWENTIETH
 
 STRENGTHS = (1.0, 0.5)
 
@@ -106,6 +108,7 @@ SERIES = {
     17: (UNSEEN_SEVENTEENTH, UNSEEN_SEVENTEENTH_PAIRS),
     18: (UNSEEN_EIGHTEENTH, UNSEEN_EIGHTEENTH_PAIRS),
     19: (UNSEEN_NINETEENTH, UNSEEN_NINETEENTH_PAIRS),
+    20: (UNSEEN_TWENTIETH, UNSEEN_TWENTIETH_PAIRS),
 }
 """Sets of forms for a report, with their pairs."""
 

@@ -11,7 +11,7 @@ bench       the rigs: sizes, sample rates, noise, controllers, nominal and true 
 slider      the spring slider, which has no inertia
 thrown      short slides, which nothing drives
 forms       the hidden effects
-unseen      further ones, for a report alone; unseen_second to unseen_nineteenth: again others, for the next ones
+unseen      further ones, for a report alone; unseen_second to unseen_twentieth: again others, for the next ones
 case        (form, design, strength, seed) -> dataset folder and truth record
 files       how a case is written down
 series_checks  what every series of forms for a report must keep
