@@ -262,6 +262,9 @@ WINS_BY, WINS_BY_SHARE = 15.0, 0.03
 FACTOR = 3.0
 """Ratio of a number to what is stated, or the other way round, from which on a gear, a unit or a scale is named as what may be
 wrong [-]: no mass is weighed so badly. Only said: it decides nothing."""
+FAR_OFF = 10.0
+"""Error of the stated model at a joint over its friction, from which on units and columns are named as what may be wrong [-].
+Only said: it decides nothing."""
 MOST_OFF, AT_BOUND = 4.0, 0.95
 """Standard deviations by which data may move what is believed of law and mechanism, and the part of that from which on a number
 is held by it [-]; 6e-5 of all priors are off by more. What is off by more is a finding, or not that number at all."""

@@ -281,6 +281,10 @@ class Effect:
         """
         return None
 
+    def seen_at_joint(self, span: JointSpan) -> bool:
+        """Return whether a joint that moves so shows the effect as it is; what it does not show stands for something else."""
+        return True
+
     @classmethod
     def hypotheses(cls, slips: Slips) -> list[Hypothesis]:
         """Return the ways in which the effect may have marked the slips; none: discovery does not look for it there."""

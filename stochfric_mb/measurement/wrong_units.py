@@ -248,7 +248,12 @@ def _require_inertia(run: Run, joint: PrismaticJoint | HingePendulum, mu_k: floa
             if seen is None
             else f"the {drive} is {seen[0]:.3g} {unit} times the {motion}, not {stated:.4g} {unit} as stated"
         )
-        raise InputError(f"{run.source}: {what}. Probably {', or '.join(remedies)}")
+        lever = (
+            f"; or a gear, a lead or a lever is left out, which scale = {{ {drive} = ... }} holds"
+            if drive in run.channels
+            else ""
+        )
+        raise InputError(f"{run.source}: {what}. Probably {', or '.join(remedies)}{lever}")
 
 
 def _through(run: Run, joint: PrismaticJoint | HingePendulum) -> str:

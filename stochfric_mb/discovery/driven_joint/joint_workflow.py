@@ -326,7 +326,7 @@ def _require_sliding(source: Balances) -> None:
         where = f"joint {name!r}" if name else "the joint"
         raise InputError(
             f"{where} slides one way in only {_windows(balances)} windows of the runs with role {role!r} ({runs}); at least "
-            f"{FEWEST} are needed: record longer or livelier motion, or check the units of position and load"
+            f"{FEWEST} are needed: record longer or livelier motion, or check units and columns of position and drive"
             f"{_widened(balances, source.dataset.scenario.law.mu_k * source.places[name])}"
         )
 

@@ -35,15 +35,15 @@ def next_experiment(pairs: Sequence[Confounded], places: Sequence[PlaceOutcome],
     if worst:
         first, second = worst[0].first, worst[0].second
         return f"Vary {first} and {second} apart: repeat the experiment with the {second} that each {first} has not had yet."
-    released = [n for p in places for n in p.selected.released if n.alike]
-    if any(finding(name) == finding(GAIN) for n in released for name in (n.name, *n.alike)):
+    numbers = [(name, tuple(map(finding, o))) for p in places if not p.idle for name, o in p.selected.alike.items() if o]
+    if any(finding(GAIN) in (name, *others) for name, others in numbers):
         return "Weigh what moves, or hold the drive against a force gauge: is it the mechanism or the factor of the drive?"
     same = [
         (t.candidate.kind, others)
         for p in places
         for t, e in zip(p.selected.effects, p.selected.equivalents, strict=True)
         if (others := tuple(k for k in map(finding, e) if k != t.candidate.kind))
-    ]
+    ] + numbers
     if same:
         kind, others = same[0]
         which = f"{words_of(kind)} from {', '.join(map(words_of, others))}"

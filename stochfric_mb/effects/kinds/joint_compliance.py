@@ -92,6 +92,10 @@ class JointCompliance(Effect):
         )  # fmt: skip
         return load_force(motor, link)
 
+    def seen_at_joint(self, span: JointSpan) -> bool:
+        """Return whether the load swings once at least in the longest record: one that is slower does not follow at all."""
+        return self.frequency * span.duration >= 1.0
+
     @classmethod
     def at_joint(cls, span: JointSpan) -> JointSignature | None:
         """Return loads that swing at frequencies which the motion excites and the windows show, from the start of a record.

@@ -18,6 +18,8 @@ from stochfric_mb.effects.shapes.course import LeveledCourse, courses_at_joint
 from stochfric_mb.effects.shapes.splines import along
 from stochfric_mb.effects.traits import BETWEEN_POINTS, READS_LOAD
 
+LOOSE = 4.0
+"""Reference load of a fit's beginning over the stated friction, where the joint transmits no more than that [-]."""
 MOST_ADHESIVE = 0.9
 """Largest share of the friction at the reference load that a fit may begin with [-]."""
 
@@ -92,7 +94,10 @@ class LoadDependence(LeveledCourse):
                 JointSignature(pulls, "normal force", 1),
                 *courses_at_joint(flat, "normal force", leveled=True),
             )
-        return JointSignature(tuple(cls(exponent=1.0, reference_load=part * span.load) for part in (0.3, 1.0, 4.0)), "load", 1)
+        loads = [part * span.load for part in (0.3, 1.0, 4.0)]
+        # where friction grows as fast as the drive the joint locks itself, and no motion is left to be explained
+        loose = [x for x in loads if x > span.friction] or [LOOSE * span.friction]
+        return JointSignature(tuple(cls(exponent=1.0, reference_load=x) for x in loose), "load", 1)
 
     @classmethod
     def hypotheses(cls, slips: Slips) -> list[Hypothesis]:

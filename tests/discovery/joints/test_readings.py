@@ -51,6 +51,20 @@ def test_news_that_comes_at_odd_times_is_old_between():
     assert abs(better - x)[news[0] : news[-1]].max() < 0.01 * abs(stale - x).max()
 
 
+def test_a_wild_reading_at_rest_is_no_news_of_a_joint_that_has_moved_on():
+    """A clean encoder rests; what ends its constant readings comes back."""
+    t = np.arange(6000) / RATE
+    x = np.round(0.05 * (1.0 - np.cos(2.0 * np.pi * np.clip(t % 1.5, 0.0, 1.0))) / 1.0e-5) * 1.0e-5  # rests of half a second
+    hit = [1200, 1301, 2700, 2701, 4400]
+    wild = x.copy()
+    wild[hit] += [0.04, -0.03, 0.05, 0.05, 0.02]
+    assert repeated(wild) == []
+    assert np.flatnonzero(stray(wild)).tolist() == hit
+    late = x.copy()
+    late[300:340] = x[300]  # there are repeated ones, too: the joint moves on
+    assert repeated(late) == [(301, 340)]
+
+
 def test_a_coarse_encoder_and_rest_repeat_nothing():
     coarse = np.round(motion() / 2.0e-4) * 2.0e-4
     resting = 0.1 + np.cumsum(1.0e-5 * (np.arange(6000) // 1500 % 2))

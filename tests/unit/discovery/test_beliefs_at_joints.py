@@ -11,7 +11,7 @@ from stochfric_mb.discovery.driven_joint.balance.confounding import Confounded, 
 from stochfric_mb.discovery.driven_joint.balance.force_balance import Nuisance
 from stochfric_mb.discovery.driven_joint.decision import findings, remarks
 from stochfric_mb.discovery.driven_joint.decision.adequacy import endless, inadequate
-from stochfric_mb.discovery.driven_joint.decision.released import Released, _driven
+from stochfric_mb.discovery.driven_joint.decision.released import Released, _driven, beyond_beliefs
 from stochfric_mb.discovery.driven_joint.decision.selection import Selector, Trial, simplest_first
 from stochfric_mb.discovery.driven_joint.fit.beliefs import at_end, beliefs
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
@@ -176,12 +176,17 @@ def test_a_clock_that_went_together_with_a_place_is_in_one_class_with_effects_of
 
 @pytest.mark.parametrize(
     ("told", "alike", "says"),
-    [("speed", (), "values of the speed"), ("", ("gain",), "force gauge"), ("", (), "a second load")],
+    [
+        ("speed", (), "values of the speed"),
+        ("", ("gain",), "force gauge"),
+        ("", ("direction_asymmetry",), "distinguish payload from direction asymmetry"),
+        ("", (), "a second load"),
+    ],
 )
 def test_the_next_experiment_tells_apart_what_these_runs_do_not(told, alike, says):
     runs = SimpleNamespace(told_by=told, foretold=bool(told))
-    selected = SimpleNamespace(named=alike, released=(SimpleNamespace(name="mass", alike=alike),), effects=(), equivalents=())
-    place = SimpleNamespace(runs=runs, random=None, selected=selected, forecasts=None, fit=(), test=())
+    selected = SimpleNamespace(named=alike, alike={"payload": alike}, effects=(), equivalents=())
+    place = SimpleNamespace(runs=runs, random=None, selected=selected, forecasts=None, fit=(), test=(), idle="")
     assert says in next_experiment([], [place] if told or alike else [])
 
 
@@ -243,7 +248,8 @@ def test_a_number_that_data_take_far_from_what_is_stated_is_spoken_of(off, says)
     final = dataclasses.replace(nothing.final, values=values)
     balances, model = tuple(selector._balances), nothing.recalibrated.model
     selected = dataclasses.replace(nothing, final=final)
-    outcome = PlaceOutcome("", selected, tuple(selector._nuisances), model, balances, balances, {}, 0.01)
+    scores = {"baseline": Score(1.0, None, None)}
+    outcome = PlaceOutcome("", selected, tuple(selector._nuisances), model, balances, balances, scores, 0.01)
     said = [s for s in remarks.remarks([outcome]) if "stated standard deviations off from what is stated" in s]
     assert said == ([f"mass is {abs(off):.2g} stated standard deviations off from what is stated"] if says else [])
 
@@ -292,3 +298,44 @@ def test_a_form_that_mechanics_gives_has_to_explain_nearly_all(effect, left, sta
     place = PlaceOutcome("", selected, tuple(selector._nuisances), model, balances, balances, scores, 0.005)
     assert bool(inadequate(place)) is not stands
     assert criteria.EXPLAINED_BY_MECHANICS == 0.9
+
+
+@pytest.mark.parametrize(("error", "says"), [(19.0, False), (21.0, True)])
+def test_a_stated_model_that_errs_by_many_times_the_friction_asks_for_units(error, says):
+    """A pressure in bar that was taken for Pa erred by 15 times the friction, and became a spring of 0.0017 Hz."""
+    selector = selector_of(pair(coulomb))  # 2 N of friction
+    nothing = selector.run()
+    balances, model, scores = tuple(selector._balances), selector.recalibrated.model, {"baseline": Score(error, None, None)}
+    place = PlaceOutcome("", nothing, tuple(selector._nuisances), model, balances, balances, scores, 0.01)
+    assert any("check units" in s for s in remarks._far_off(place)) is says
+    assert criteria.FAR_OFF == 10.0
+
+
+@pytest.mark.parametrize(("stated", "found"), [(0.1, ("direction_asymmetry",)), (5.0, ())])
+def test_what_could_stand_in_the_place_of_a_number_is_told(stated, found):
+    """A force that is more one way is an asymmetry or a constant force; where the zero may be off it is within its doubt."""
+    measured = pair(lambda q, v: 1.5 * coulomb(q, v) + 0.8)
+    measured = dataclasses.replace(
+        measured, scenario=dataclasses.replace(measured.scenario, uncertainty={"mass": 0.05, "offset": stated, "mu_k": 0.5})
+    )
+    selector = selector_of(measured)
+    offset = next(b for b in beliefs(selector.recalibrated.model, selector._nuisances) if b.name == "offset")
+    model, selector._nuisances = offset.given_up(selector.recalibrated.model, selector._nuisances)
+    final = selector._fit(model)
+    alike = selector._alike(final, [Released(offset, 50.0, 1.0, 0.1)], selector._state)
+    assert set(found) <= set(alike["constant_force"])
+    assert bool(found) or not alike["constant_force"]
+    assert "constant_force" not in alike["constant_force"]
+
+
+@pytest.mark.parametrize(("mass", "asked"), [(2.6, True), (1.6, False)])
+def test_beside_an_effect_a_mass_may_be_more_and_not_less(mass, asked):
+    """Less inertia is less noise beside what imitates it; more is a payload, which a factor of the drive imitates."""
+    selector = selector_of(believing(pair(lambda q, v: coulomb(q, v) + 3.0 * v, mass=mass), mass=0.02, offset=0.1, mu_k=0.5))
+    plain = selector.recalibrated
+    beside = dataclasses.replace(plain, model=plain.model.plus(make_effect("viscous_friction", coefficient=3.0)))
+    within = dataclasses.replace(
+        beside, model=dataclasses.replace(beside.model, nuisances={**beside.model.nuisances, "mass": 2.0})
+    )
+    freed = beyond_beliefs(within, selector._balances, selector._nuisances, 0.1, beside=True, without=frozenset())
+    assert any(f.number.name == "mass" for f in freed) is asked

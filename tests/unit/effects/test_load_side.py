@@ -116,11 +116,29 @@ def test_it_is_a_driven_joint_alone_that_has_such_a_load():
     assert not make_effect("backlash", gap=1.0e-3, position=1.0e-3).moves_load
 
 
+SPAN = JointSpan(
+    speed=0.5, stroke=0.2, lowest=0.0, duration=1.0, load=0.0, both_ways=False, friction=2.0, distance=0.2,
+    temperature=None, contact=False, stated_load=20.0, window=0.01, inertia=0.5,
+)  # fmt: skip
+"""A slide."""
+
+
 @pytest.mark.parametrize("driven", [True, False])
 def test_no_load_swings_behind_a_motor_that_is_not_there(driven):
     """Blocks that a thrown one took along were a compliance."""
-    span = JointSpan(
-        speed=0.5, stroke=0.2, lowest=0.0, duration=1.0, load=0.0, both_ways=False, friction=2.0, distance=0.2,
-        temperature=None, contact=False, stated_load=20.0, window=0.01, inertia=0.5, drive=driven,
-    )  # fmt: skip
-    assert (effect_class("joint_compliance").at_joint(span) is not None) == driven
+    assert (effect_class("joint_compliance").at_joint(dataclasses.replace(SPAN, drive=driven)) is not None) == driven
+
+
+@pytest.mark.parametrize(("frequency", "seen"), [(0.4, False), (0.6, True)])
+def test_a_load_that_swings_more_slowly_than_the_record_lasts_does_not_show(frequency, seen):
+    """A pressure in another unit was a load of 0.0017 Hz in 10 s."""
+    slow = make_effect("joint_compliance", load_share=0.5, frequency=frequency)
+    assert slow.seen_at_joint(dataclasses.replace(SPAN, duration=2.0)) is seen
+
+
+@pytest.mark.parametrize(("friction", "references"), [(2.0, [3.0, 10.0, 40.0]), (5.0, [10.0, 40.0]), (50.0, [200.0])])
+def test_no_fit_of_load_dependence_begins_where_the_joint_locks_itself(friction, references):
+    """Friction that grows with the drive as fast as it does leaves nothing of any drive: all else then seemed faint."""
+    span = dataclasses.replace(SPAN, load=10.0, friction=friction)
+    begun = effect_class("load_dependence").at_joint(span)
+    assert [e.reference_load for e in begun.starts] == pytest.approx(references)

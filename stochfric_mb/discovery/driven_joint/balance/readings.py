@@ -37,6 +37,8 @@ REPEATED = 3
 """Fewest readings that are the same to the last digit."""
 MISSED = 4.0
 """Jump after them over the usual change between samples and over the resolution, from which the joint has moved on [-]."""
+AFTER = 5
+"""Readings after such a jump that tell where the joint is: up to two of them may be wild."""
 FEWEST = 5
 """Fewest of either for a finding: fewer are accidents."""
 
@@ -94,7 +96,9 @@ def repeated(values: Array) -> list[tuple[int, int]]:
         reach = LEAST + 2 * (end - first)
         near = np.r_[moved[max(first - reach, 0) : first], moved[end : end + reach]]
         usual = float(np.median(near)) if len(near) else np.inf
-        if moved[last] > MISSED * max(usual, step) and np.count_nonzero(near == 0.0) < 0.5 * len(near):
+        # a joint that has moved on stays away; a wild reading comes back
+        missed = min(moved[last], abs(float(np.median(values[end : end + AFTER])) - values[first]))
+        if missed > MISSED * max(usual, step) and np.count_nonzero(near == 0.0) < 0.5 * len(near):
             found.append((first + 1, end))
     return found
 

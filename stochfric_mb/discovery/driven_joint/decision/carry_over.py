@@ -47,6 +47,7 @@ def with_idle(place: PlaceOutcome) -> PlaceOutcome:
         final=place.selected.recalibrated,
         effects=(),
         standing_in=tuple,
+        standing_in_numbers=dict[str, tuple[str, ...]],
         released=(),
         nuisances=nuisances,
     )

@@ -124,7 +124,7 @@ def released_numbers(place: PlaceOutcome) -> list[EffectEstimate]:
             f"{' and '.join(said)}. With it the error falls from {first.before:.4g} to {numbers[-1].after:.4g} "
             f"{place.fit[0].unit} on the fit runs."
         )
-        alike = dict.fromkeys(k for n in numbers for k in map(finding, n.alike) if k != name)
+        alike = dict.fromkeys(map(finding, place.selected.alike[name]))
         effects.append(EffectEstimate(name, tuple(alike), Where("motion", text), sizes, first.score, None))
     return effects
 

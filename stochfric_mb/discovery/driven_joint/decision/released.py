@@ -33,7 +33,7 @@ BEYOND = {
     "offset": "constant_force", "mu_k": "friction_level",
 }  # fmt: skip
 """Number of law or mechanism -> what it is called where it is off by more than its uncertainty; other ones are an effect's."""
-TOGETHER = (("mass", "inertia"), tuple(PAYLOADS.values()))
+TOGETHER = (("mass", "inertia"), ("mass", "armature"), tuple(PAYLOADS.values()))
 """Numbers that one thing moves: a payload has a weight and a lever of its own."""
 OF_EFFECTS = {"damping": MORE_DAMPING, "piston_area": OTHER_AREA}
 """Number of the mechanism -> the finding of an effect that it is."""
@@ -57,8 +57,6 @@ class Released:
     """Error with the number within its belief (rms) [N or N m]."""
     after: float
     """Error with it where the data take it."""
-    alike: tuple[str, ...] = ()
-    """Other numbers that explain as much."""
 
     @property
     def name(self) -> str:
@@ -116,14 +114,17 @@ def beyond_beliefs(
     asked = [b for b in believed if b.name not in without and (b.owner != MECHANISM or driven)]
     # beside an effect that imitates inertia less mass would only be less noise: it must press against its bound
     pressing = [b for b in asked if not beside or abs(b.off(current.model)) >= criteria.AT_BOUND * criteria.MOST_OFF]
+    heavier = [b for b in asked if b.name in INERTIAL and b not in pressing]
     factor = _factor_of_the_drive(balances, nuisances)
     exact = [] if factor is None or factor.name in without else [factor]
-    for several in [*((b,) for b in pressing), *_together(asked, pressing), *((b,) for b in exact)]:
+    for several in [*((b,) for b in [*pressing, *heavier]), *_together(asked, pressing), *((b,) for b in exact)]:
         model, wide = current.model, list(nuisances)
         for belief in several:
             model, wide = belief.given_up(*(belief.added_to(model, wide) if belief in exact else (model, wide)))
         fitted, _ = settled(model, balances, wide, noise=noise)
         if any(abs(b.off(fitted.model)) < criteria.MOST_OFF or _at_an_end(b, fitted) for b in several):
+            continue
+        if any(b in heavier and b.off(fitted.model) < 0.0 for b in several):
             continue
         cost = len(several) * np.log(max(fitted.independent, 4.0)) + 2.0 * np.log(len(believed) + len(exact))
         score = evidence(current, fitted, fitted, settings) - float(cost)

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.balance.force_balance import PAYLOADS
 from stochfric_mb.discovery.driven_joint.decision.estimates import against_priors, mechanism_estimates
 from stochfric_mb.discovery.driven_joint.decision.findings import in_place
@@ -67,8 +68,19 @@ def remarks(places: Sequence[PlaceOutcome]) -> list[str]:
             said.append(f"friction {how} by {share:.1f} % from stroke to stroke ({strokes} strokes){in_place(place)}{why}")
         if place.selected.effects and place.selected.unknown:
             said.append(f"what remains depends on {place.selected.unknown}{in_place(place)}; no known effect explains it")
-        said += _more_missing(place) + _in_kilograms(place)
+        said += _more_missing(place) + _in_kilograms(place) + _far_off(place)
     return said
+
+
+def _far_off(place: PlaceOutcome) -> list[str]:
+    """Return that the stated model errs by many times the friction, if it does: a unit or a column is wrong more often."""
+    error, friction = place.scores["baseline"].sliding, place.stated.law.mu_k * place.stated.load
+    if not error > criteria.FAR_OFF * friction > 0.0:
+        return []
+    return [
+        f"the stated model errs by {error:.3g} {place.fit[0].unit}{in_place(place)} on the held-out runs, "
+        f"{error / friction:.0f} times the friction: check units, scales and columns (of a pressure, too) first"
+    ]
 
 
 def _in_kilograms(place: PlaceOutcome) -> list[str]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import functools
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 import numpy.typing as npt
@@ -14,7 +14,7 @@ from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.balance.confounding import Confounded, by_state, confounded
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
 from stochfric_mb.discovery.driven_joint.decision.cross_validation import blocks, compared, each_run, strokes, witnesses
-from stochfric_mb.discovery.driven_joint.decision.released import INERTIAL, Freed, Released, beyond_beliefs
+from stochfric_mb.discovery.driven_joint.decision.released import INERTIAL, Freed, Released, beyond_beliefs, finding
 from stochfric_mb.discovery.driven_joint.decision.smooth_dependence import COMPETITORS, SIGNED, TIMES, SmoothDependences
 from stochfric_mb.discovery.driven_joint.fit.beliefs import at_end, beliefs
 from stochfric_mb.discovery.driven_joint.fit.evidence import evidence, settings_of
@@ -74,6 +74,8 @@ class Selected:
     """Effects, as they were when accepted."""
     standing_in: Callable[[], tuple[tuple[str, ...], ...]]
     """Works out `equivalents`, which takes as long as the selection."""
+    standing_in_numbers: Callable[[], Mapping[str, tuple[str, ...]]]
+    """Works out `alike`, which does, too."""
     stages: tuple[Stage, ...]
     """The steps."""
     unknown: str
@@ -92,6 +94,11 @@ class Selected:
     def equivalents(self) -> tuple[tuple[str, ...], ...]:
         """Effects, and numbers of the mechanism, that could stand in the place of each effect that is named."""
         return self.standing_in()
+
+    @functools.cached_property
+    def alike(self) -> Mapping[str, tuple[str, ...]]:
+        """The same in the place of numbers that are off, by what these are called together."""
+        return self.standing_in_numbers()
 
     @property
     def named(self) -> tuple[str, ...]:
@@ -159,6 +166,7 @@ class Selector:
             final,
             tuple(effects),
             functools.partial(self._equivalents, final, tuple(t.candidate.parameters for t in effects), self._state),
+            functools.partial(self._alike, final, tuple(released), self._state),
             tuple(stages),
             unknown[0],
             tuple((axis, gain) for axis, gain in left if axis),
@@ -205,14 +213,8 @@ class Selector:
         best = next((f for f in named if self._foretells(current, f)), None)
         if best is None:
             return None
-        others = [f.number for f in freed if f.count == 1 and f.number.name not in {r.name for r in (best.number, *best.also)}]
-        least = max(best.number.score - criteria.TIE, criteria.STANDS_IN * best.number.score)
         self._nuisances, self._noise = best.nuisances, prior_weight(best.fit)
-        alike = tuple(r.name for r in others if r.score > least)
-        # a mass that nobody doubts either is no surer than the drive: the motion shows their ratio alone
-        if not best.number.belief.stated and not any(n.name in INERTIAL for n in self._nuisances):
-            alike = (*alike, INERTIAL[0])
-        return [dataclasses.replace(r, alike=alike) for r in (best.number, *best.also)], self._fit(best.fit.model)
+        return [best.number, *best.also], self._fit(best.fit.model)
 
     def _taken_back(self, current: JointFit, released: list[Released]) -> tuple[JointFit, list[Released]]:
         """Believe again numbers that effects found after them explain: what is left of their evidence no longer names them."""
@@ -343,30 +345,48 @@ class Selector:
     def _equivalents(self, final: JointFit, sizes: Sequence[int], state: State) -> tuple[tuple[str, ...], ...]:
         """Return what could stand in the place of each effect of the final model, of so many numbers, as things then stood."""
         self._without, self._noise, self._nuisances = state
-        return tuple(self._standing_in(final, i, size) for i, size in enumerate(sizes))
+        first = len(final.model.effects) - len(sizes)
+        found: list[tuple[str, ...]] = []
+        for own, size in zip(final.model.effects[first:], sizes, strict=True):
+            others = tuple(e for e in final.model.effects if e is not own)
+            without = self._fit(dataclasses.replace(final.model, effects=others))
+            found.append(self._standing_in(final, without, size, own.kind))
+        return tuple(found)
 
-    def _standing_in(self, final: JointFit, number: int, size: int) -> tuple[str, ...]:
-        """Return what could stand in the place of an effect of ``size`` numbers of the final model, within `criteria.TIE`.
+    def _alike(self, final: JointFit, released: Sequence[Released], state: State) -> dict[str, tuple[str, ...]]:
+        """Return what could stand in the place of each finding of numbers beyond their beliefs, by its name."""
+        found: dict[str, tuple[str, ...]] = {}
+        for name in dict.fromkeys(finding(r.name) for r in released):
+            self._without, self._noise, self._nuisances = state
+            numbers, model = [r.belief for r in released if finding(r.name) == name], final.model
+            for belief in numbers:
+                model, self._nuisances = belief.held(model, self._nuisances)
+            without, self._noise = settled(model, self._balances, self._nuisances, noise=self._noise)
+            found[name] = self._standing_in(final, without, len(numbers), name)
+            # a mass that nobody doubts either is no surer than the drive: the motion shows their ratio alone
+            if not numbers[0].stated and not any(n.name in INERTIAL for n in self._nuisances):
+                found[name] = tuple(dict.fromkeys((*found[name], INERTIAL[0])))
+        return found
+
+    def _standing_in(self, final: JointFit, without: JointFit, size: int, own: str) -> tuple[str, ...]:
+        """Return what could stand in the place of a finding of ``size`` numbers, within `criteria.TIE`.
 
         Kinds of effects, and names of numbers of the mechanism that would be beyond their beliefs.
+
+        Args:
+            final: the fit with all findings.
+            without: the fit without this one.
+            size: how many numbers it has.
+            own: what it is called.
         """
-        added = len(final.model.effects) - len(self.recalibrated.model.effects)
-        own = final.model.effects[len(final.model.effects) - added + number]
-        others = tuple(e for e in final.model.effects if e is not own)
-        without = self._fit(dataclasses.replace(final.model, effects=others))
-        fits = [(c, f) for c, f in self._found(without).fits if c.kind != own.kind]
-        n = max(final.independent, 4.0)
+        fits = [(c.kind, c.parameters, f) for c, f in self._found(without).fits]
+        fits += [(f.number.name, f.count, f.fit) for f in self._freed(without)]
+        price = float(np.log(max(final.independent, 4.0)))
         mine = evidence(without, final, final, self._settings)
-        theirs = [(c.kind, c.parameters, evidence(without, f, final, self._settings)) for c, f in fits]
-        theirs += [(f.number.name, f.count, evidence(without, f.fit, final, self._settings)) for f in self._freed(without)]
+        theirs = [(name, n, evidence(without, f, final, self._settings)) for name, n, f in fits if finding(name) != own]
         # one that explains next to nothing stands in for nothing, however close the scores
-        return tuple(
-            dict.fromkeys(
-                name
-                for name, numbers, gain in theirs
-                if gain > criteria.STANDS_IN * mine and gain - numbers * np.log(n) > mine - size * np.log(n) - criteria.TIE
-            )
-        )
+        least = mine - size * price - criteria.TIE
+        return tuple(dict.fromkeys(name for name, n, x in theirs if x > criteria.STANDS_IN * mine and x - n * price > least))
 
     def _unknown(self, last: Stage) -> tuple[str, float]:
         """Return the axis of what is missing that no effect explains, empty if nothing is, and what part it takes away."""

@@ -128,9 +128,13 @@ class CandidateFits:
         if key not in self._fitted:
             self._tell(seen.candidate.kind)
             fitted = self._best(beside, seen)
-            none = fitted is None or is_none(fitted, len(fitted.model.effects) - 1)
-            self._fitted[key] = None if none else fitted
+            self._fitted[key] = fitted if fitted is not None and self._is_one(beside, fitted) else None
         return self._fitted[key]
+
+    def _is_one(self, beside: Beside, fitted: JointFit) -> bool:
+        """Return whether the last effect of a fit is one of its kind, and as fitted shows in such a record."""
+        last = len(fitted.model.effects) - 1
+        return fitted.model.effects[last].seen_at_joint(self._span(beside)) and not is_none(fitted, last)
 
     def _best(self, beside: Beside, seen: Prospect) -> JointFit | None:
         """Return the best fit with a candidate; None: it is no number, or nothing is left for a wave.
