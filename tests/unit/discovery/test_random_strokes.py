@@ -27,6 +27,17 @@ def test_strokes_are_drawn_anew_where_the_one_before_says_less_than_half(memory,
     assert seen.may_wander is may_wander
 
 
+@pytest.mark.parametrize(("inside", "named"), [(0.14, True), (0.3, True), (0.4, False)])
+def test_scatter_is_a_finding_where_it_explains_nine_tenths_of_the_squared_error(inside, named):
+    """24 % from stroke to stroke had no name for what 1 % more left within them."""
+    seen = StrokeScatter(
+        sigma=0.1, low=0.08, high=0.12, share=0.2, score=100.0, p_value=0.0, believed=0.0, gain=0.5,
+        memory=Memory(0.0, 0.0, 0.4), across=0.0, strokes=40, level=1.0, inside=inside, floor=0.1,
+    )  # fmt: skip
+    assert seen.named is named
+    assert seen.all_of_it is (inside < 0.15)
+
+
 def strokes(rng, rho, runs, each):
     """Return strokes there and back, with a mean for each run and direction, and the scatter of a reading."""
     n = runs * each

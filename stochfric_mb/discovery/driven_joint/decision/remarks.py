@@ -66,6 +66,9 @@ def remarks(places: Sequence[PlaceOutcome]) -> list[str]:
             share, strokes = 100.0 * place.random.share, place.random.strokes
             why = "; it goes on across reversals, as slow noise of the drive does" if place.random.slow_noise else ""
             said.append(f"friction {how} by {share:.1f} % from stroke to stroke ({strokes} strokes){in_place(place)}{why}")
+        if place.random is not None and place.random.named and not place.random.all_of_it:
+            left = place.random.inside / place.random.floor
+            said.append(f"{left:.1f} times the noise is left within strokes{in_place(place)}: more is missing")
         if place.selected.effects and place.selected.unknown:
             said.append(f"what remains depends on {place.selected.unknown}{in_place(place)}; no known effect explains it")
         said += _more_missing(place) + _in_kilograms(place) + _far_off(place)

@@ -13,6 +13,7 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
+from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
 from stochfric_mb.discovery.driven_joint.scatter.between_groups import CoefficientScatter, estimated
@@ -54,6 +55,12 @@ class StrokeScatter(CoefficientScatter):
         return self.inside <= FLOOR * self.floor
 
     @property
+    def most_of_it(self) -> bool:
+        """Whether the scatter explains nine tenths of the squared error, noise apart: a coefficient a stroke is an exact form."""
+        more = max(self.inside**2 - self.floor**2, 0.0)
+        return self.all_of_it or self.level**2 >= criteria.EXPLAINED_BY_MECHANICS * (self.level**2 + more)
+
+    @property
     def wanders(self) -> bool:
         """Whether the stroke before says more than half of the next one beyond doubt: that is then not drawn anew."""
         return foretells(self.memory.low)
@@ -71,7 +78,7 @@ class StrokeScatter(CoefficientScatter):
     @property
     def named(self) -> bool:
         """Whether it is a finding."""
-        return super().named and self.all_of_it and not self.wanders and not self.slow_noise
+        return super().named and self.most_of_it and not self.wanders and not self.slow_noise
 
 
 def stroke_scatter(
