@@ -56,7 +56,7 @@ class StrokeScatter(CoefficientScatter):
 
     @property
     def most_of_it(self) -> bool:
-        """Whether the scatter explains nine tenths of the squared error, noise apart: a coefficient a stroke is an exact form."""
+        """Whether the scatter explains nine tenths of the squared error, noise apart: one number a stroke is an exact form."""
         more = max(self.inside**2 - self.floor**2, 0.0)
         return self.all_of_it or self.level**2 >= criteria.EXPLAINED_BY_MECHANICS * (self.level**2 + more)
 
