@@ -23,6 +23,12 @@ BANDS, LEVEL, EVEN = 12, 4, 2.0
 factor where the spectrum is that of noise [-]: that of a motion that jumps in its acceleration falls by 64 an octave."""
 
 
+FEW_STEPS, ON_STEP, MOST_ON_STEP, LEAST_ROUGH = 5.5, 0.15, 0.99, 0.01
+"""Steps below which changes of a signal are looked at, how far off from whole ones they may be where it comes in steps, and the
+share that must be [-]: a file's digits round a count by less, and a third of all changes of a smooth signal are. And the share
+of third differences that must be rough."""
+
+
 _LEVELS: dict[bytes, float] = {}
 """Digest of a signal -> its `noise_level`: a record is asked for once for each delay that is tried and each window."""
 MOST_LEVELS = 4096
@@ -51,8 +57,24 @@ def noise_level(signal: Array) -> float:
     return _LEVELS[digest]
 
 
+def rounding_noise(signal: Array) -> float:
+    """Return the standard deviation of the rounding error of a signal that comes in steps, step/sqrt(12); 0: in none.
+
+    Differences between its samples do not show it where the signal rests, or moves by nearly as many steps each time.
+
+    Reference: B. Widrow, I. Kollar, Quantization Noise, Cambridge 2008, section 4.2 (Sheppard's correction).
+    """
+    moved = np.abs(np.diff(signal))
+    step = float(np.min(moved, where=moved > 0.0, initial=np.inf))
+    few = moved[(moved > 0.0) & (moved < FEW_STEPS * step)] / step
+    if not len(few) or np.mean(np.abs(few - np.round(few)) < ON_STEP) < MOST_ON_STEP or np.ptp(np.round(few)) < 1.0:
+        return 0.0
+    rough = np.mean(np.abs(np.diff(signal, 3)) > 0.5 * step)  # a parabola comes in steps, too
+    return step / float(np.sqrt(12.0)) if rough > LEAST_ROUGH else 0.0
+
+
 def _noise_level(signal: Array) -> float:
-    white = white_noise(signal)
+    white = max(white_noise(signal), rounding_noise(signal))
     if len(signal) < 2 * PIECE or white <= 0.0 or np.mean(np.diff(signal) == 0.0) > REPEATED:
         return white
     # third differences leave little of the motion, which would leak into all frequencies; stray readings are in few pieces

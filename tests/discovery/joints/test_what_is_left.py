@@ -285,3 +285,13 @@ def test_an_uncertainty_of_what_no_data_correct_is_told():
     assert "normal_force" in note
     assert "records correct mass here" in note
     assert not any("is not used" in n for n in joint_outcome(pair(coulomb)).result.notes)
+
+
+@pytest.mark.parametrize(("white", "missing"), [(1.1, False), (0.9, True)])
+def test_what_is_less_than_the_noise_of_the_channels_is_not_missing(white, missing, monkeypatch):
+    """Counts of a clean encoder at constant speed are rounded alike in neighbouring windows, which then differ by less."""
+    place = joint_outcome(pair(coulomb)).places[0]
+    left = float(np.std(np.concatenate(place.selected.final.remainders)))
+    monkeypatch.setattr(carry_over, "noise_floor", lambda *_: 0.1 * left)
+    monkeypatch.setattr(carry_over, "white_floor", lambda *_: white * left)
+    assert carry_over.above_floor(place) is missing

@@ -5,7 +5,7 @@ import pytest
 from scipy.interpolate import CubicSpline
 from scipy.signal import butter, lfilter
 
-from stochfric_mb.discovery.inference.noise import PIECE, noise_level, white_noise
+from stochfric_mb.discovery.inference.noise import PIECE, noise_level, rounding_noise, white_noise
 
 RATE = 2000.0
 TIME = np.arange(20_000) / RATE
@@ -69,3 +69,20 @@ def test_motion_that_is_interpolated_is_no_noise():
 def test_a_short_record_has_no_spectrum():
     signal = by_spline(NOISE)[: 2 * PIECE - 1]
     assert noise_level(signal) == white_noise(signal)
+
+
+def test_counts_of_a_clean_encoder_have_the_noise_of_their_rounding_though_it_rests_most_of_the_time():
+    t = np.arange(8000) * 1.0e-3
+    counts = np.round(0.05 * (1.0 - np.cos(2.0 * np.pi * np.clip(t % 4.0, 0.0, 1.0))) / 1.0e-5) * 1.0e-5
+    assert white_noise(counts) == 0.0
+    assert noise_level(counts) == pytest.approx(1.0e-5 / np.sqrt(12.0), rel=1.0e-6)
+    printed = np.round(counts / 3.0, 7)  # the file rounds a count of 3.3e-6 to 1e-7
+    assert rounding_noise(printed) == pytest.approx(1.0e-5 / 3.0 / np.sqrt(12.0), rel=0.05)
+
+
+def test_what_does_not_come_in_steps_has_no_rounding():
+    t, rng = np.arange(8000) * 1.0e-3, np.random.default_rng(2)
+    assert rounding_noise(np.sin(t)) == 0.0
+    assert rounding_noise(np.sin(t) + 1.0e-4 * rng.standard_normal(t.size)) == 0.0
+    assert rounding_noise(0.3 * t) == 0.0  # an even motion has one change, and no resolution
+    assert rounding_noise(np.zeros(10)) == 0.0

@@ -100,8 +100,8 @@ def above_floor(place: PlaceOutcome) -> bool:
     zero = strokes is not None and strokes.slow_noise and float(np.std(within + between)) < _largest_zero(place)
     if zero or (runs is not None and runs.accounted):
         return False
-    # where no window has neighbours to differ from, nothing says that noise is all there is
-    return not float(np.std(within)) <= FLOOR * floor or _waves(within, last.independent)
+    # less than the channels' own noise is noise, though neighbouring windows round alike; where nothing is known, nothing is
+    return not float(np.std(within)) <= max(FLOOR * floor, white) or _waves(within, last.independent)
 
 
 def runs_apart(place: PlaceOutcome) -> bool:
