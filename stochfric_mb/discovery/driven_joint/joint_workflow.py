@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import itertools
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.balance.balances import Balances
-from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance
+from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
 from stochfric_mb.discovery.driven_joint.balance.late_channel import brought_forward, late_channel
 from stochfric_mb.discovery.driven_joint.balance.readings import mended
 from stochfric_mb.discovery.driven_joint.balance.timing import NAMED
@@ -23,6 +23,7 @@ from stochfric_mb.discovery.driven_joint.decision.selection import Stage
 from stochfric_mb.discovery.driven_joint.decision.signs import require_dissipation
 from stochfric_mb.discovery.driven_joint.decision.verdict import verdict
 from stochfric_mb.discovery.driven_joint.fit.fitting import fit, prior_weight
+from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
 from stochfric_mb.discovery.driven_joint.joint_result import JointOutcome, PlaceOutcome
 from stochfric_mb.discovery.driven_joint.place import place_outcome, share_by_delay
 from stochfric_mb.discovery.driven_joint.simulation.augmented import augmented
@@ -40,6 +41,8 @@ from stochfric_mb.scenario import Scenario
 
 Array = npt.NDArray[np.float64]
 Progress = Callable[[str], None]
+Plain = tuple[JointModel, Sequence[Nuisance], float]
+"""A model of a place, numbers of its mechanism with their priors, and how beliefs weigh, as of `fit`."""
 FEWEST = 8
 """Fewest windows of sliding in the runs of a role: fewer say nothing about friction."""
 ANSWERS = 3
@@ -72,33 +75,50 @@ def joint_outcome(dataset: Dataset, *, progress: Progress | None = None) -> Join
         dataset, better = (
             dataclasses.replace(x, scenario=dataclasses.replace(x.scenario, controller=None)) for x in (dataset, better)
         )
+    as_read = source_of(dataset)
     if not readings:
-        return _outcome(source_of(dataset), tell, (), notes, None)
-    return _outcome(source_of(better), tell, readings, notes, source_of(dataset))
+        return _outcome(as_read, tell, (), notes, None)
+    repaired = source_of(better)
+    left = _left_by(as_read, repaired, {name: _stated(as_read, name) for name in as_read.places})
+    if left >= 1.0 - criteria.MATERIAL:  # beside the stated model they matter little, but perhaps beside what it lacks
+        outcome = _outcome(as_read, tell, (), notes, None)
+        found = {p.place: _named(p) for p in outcome.places}
+        if _left_by(as_read, repaired, found, {p.place: p.late for p in outcome.places}) >= 1.0 - criteria.MATERIAL:
+            return outcome
+    mostly = left**2 <= 1.0 - criteria.EXPLAINED_HELD_OUT
+    return _outcome(repaired, tell, readings, notes, as_read if mostly else None)
 
 
-def _left_by(as_read: Balances, repaired: Balances, places: Sequence[PlaceOutcome], *, named: bool) -> float:
+def _stated(source: Balances, name: str) -> Plain:
+    model = source.stated(name)
+    return model, source.nuisances(name), model.law.mu_k * model.load
+
+
+def _named(place: PlaceOutcome) -> Plain:
+    final = place.selected.final
+    return final.model, place.selected.nuisances, prior_weight(final)
+
+
+def _left_by(
+    as_read: Balances, repaired: Balances, models: Mapping[str, Plain], late: Mapping[str, float] | None = None
+) -> float:
     """Return the least part that the error of a place's balance keeps with wrong readings replaced, seen alike [-].
 
     Args:
         as_read: balances with the readings as they were.
         repaired: the same with wrong ones replaced.
-        places: what came of those.
-        named: whether with what is named there, which leaves the readings more of the error than the model without.
+        models: place -> the model of it from which fits begin, numbers of its mechanism, and how beliefs weigh.
+        late: place -> by how much positions come late there, beyond what is stated [s].
     """
     parts: list[float] = []
     if _hardly_sliding(as_read) is not None:  # as it was read, nothing could be said: a position that is new now and then
         return 0.0
-    for place in places:
-        name, delay = place.place, as_read.stated_delay + (place.late if named else 0.0)
+    for name, (model, nuisances, noise) in models.items():
+        delay = as_read.stated_delay + (late or {}).get(name, 0.0)
         before = as_read.balances(name, "fit", delay)
         width = round(float(np.median([s.window.half_width / s.window.interval for s in before])))
         raw, mended_ones = (s.balances(name, "fit", delay, width) for s in (as_read, repaired))
         seen = [_where_sliding(raw, mended_ones), mended_ones]
-        model, nuisances, noise = place.stated, place.nuisances, place.stated.law.mu_k * place.stated.load
-        if named and not place.idle:
-            final = place.selected.final
-            model, nuisances, noise = final.model, place.selected.nuisances, prior_weight(final)
         error, replaced = (fit(model, s, nuisances, noise=noise).rms for s in seen)
         parts.append(replaced / error)
     return min(parts)
@@ -167,7 +187,11 @@ def require_usable(dataset: Dataset) -> None:
         return
     _require_controller(dataset.scenario)
     better, readings = mended(dataset)
-    source = source_of(better if readings else dataset)
+    source = source_of(dataset)
+    if readings:
+        repaired = source_of(better)
+        left = _left_by(source, repaired, {name: _stated(source, name) for name in source.places})
+        source = repaired if left < 1.0 - criteria.MATERIAL else source
     _require_sliding(source)
     for name in source.places:
         require_dissipation(dataset, name, source.balances(name, "fit", source.stated_delay))
@@ -183,7 +207,7 @@ def _outcome(
         tell: called with what is being done.
         readings: effects that those mean.
         said: what the reader should know already.
-        as_read: balances with the readings as they were; None: none was wrong.
+        as_read: balances with the readings as they were, where replacing these explains more than it leaves.
     """
     _require_sliding(source)
     notes = [*said]
@@ -194,8 +218,6 @@ def _outcome(
         after = _places(moved, tell, [], timed=False)
         if _fits_better(places, after):
             source = moved
-            if as_read is not None:
-                as_read = source_of(brought_forward(as_read.dataset, channel[0], channel[1].seconds))
             before = {p.place: {k: p.scores[k] for k in ("baseline", "recalibrated")} for p in places}
             places = [dataclasses.replace(p, scores=p.scores | before[p.place]) for p in after]
         else:
@@ -204,29 +226,13 @@ def _outcome(
     places.sort(key=_evidence)
     places, floor = _adequate(source, tell, places)
     places = [with_idle(dataclasses.replace(p, mended=bool(readings))) for p in places]
-    told, mostly = _worth_telling(readings, as_read, source, places)
-    notes += [f"{e.appears()[1]}; they are replaced, which changes what is left little" for e in readings if e not in told]
     # an answer with a name has no term without one
-    places[0] = _with_readings(places[0], as_read) if mostly and as_read is not None else with_unnamed(dataset, places[0])
+    places[0] = with_unnamed(dataset, places[0]) if as_read is None else _with_readings(places[0], as_read)
     notes += _run_notes(dataset) + _not_corrected(source)
-    result = verdict(dataset, places, notes, floor, told, channel, mostly=mostly)
+    result = verdict(dataset, places, notes, floor, readings, channel, mostly=as_read is not None)
     pictures = tuple(map(friction_picture, places))
-    scenario = augmented(dataset.scenario, places, told)
+    scenario = augmented(dataset.scenario, places, readings)
     return JointOutcome(result, scenario, dataset, places=tuple(places), pictures=pictures)
-
-
-def _worth_telling(
-    readings: Sequence[Effect], as_read: Balances | None, source: Balances, places: Sequence[PlaceOutcome]
-) -> tuple[Sequence[Effect], bool]:
-    """Return the effects that wrong readings are told as, and whether they explain more of the squared error than they leave.
-
-    They are told where what is named would leave more by a material part with the readings as they were.
-    """
-    if as_read is None:
-        return (), False
-    left = _left_by(as_read, source, places, named=False)
-    material = _left_by(as_read, source, places, named=True) < 1.0 - criteria.MATERIAL
-    return readings if material else (), material and left**2 <= 1.0 - criteria.EXPLAINED_HELD_OUT
 
 
 def _adequate(source: Balances, tell: Progress, places: Sequence[PlaceOutcome]) -> tuple[list[PlaceOutcome], float | None]:

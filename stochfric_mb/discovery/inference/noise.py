@@ -29,6 +29,10 @@ share that must be [-]: a file's digits round a count by less, and a third of al
 of third differences that must be rough."""
 
 
+ARITHMETIC = 1.0e-13
+"""Change over the signal's size up to which an interpolation of equal readings errs [-]: some hundred rounding errors."""
+
+
 _LEVELS: dict[bytes, float] = {}
 """Digest of a signal -> its `noise_level`: a record is asked for once for each delay that is tried and each window."""
 MOST_LEVELS = 4096
@@ -57,6 +61,12 @@ def noise_level(signal: Array) -> float:
     return _LEVELS[digest]
 
 
+def changes(signal: Array) -> Array:
+    """Return the sizes of the changes from sample to sample, shape (n - 1,); what arithmetic leaves of none is none."""
+    moved = np.abs(np.diff(signal))
+    return np.where(moved > ARITHMETIC * np.max(np.abs(signal), initial=0.0), moved, 0.0)
+
+
 def rounding_noise(signal: Array) -> float:
     """Return the standard deviation of the rounding error of a signal that comes in steps, step/sqrt(12); 0: in none.
 
@@ -64,7 +74,7 @@ def rounding_noise(signal: Array) -> float:
 
     Reference: B. Widrow, I. Kollar, Quantization Noise, Cambridge 2008, section 4.2 (Sheppard's correction).
     """
-    moved = np.abs(np.diff(signal))
+    moved = changes(signal)
     step = float(np.min(moved, where=moved > 0.0, initial=np.inf))
     few = moved[(moved > 0.0) & (moved < FEW_STEPS * step)] / step
     if not len(few) or np.mean(np.abs(few - np.round(few)) < ON_STEP) < MOST_ON_STEP or np.ptp(np.round(few)) < 1.0:

@@ -69,6 +69,11 @@ def test_a_coarse_encoder_and_rest_repeat_nothing():
     coarse = np.round(motion() / 2.0e-4) * 2.0e-4
     resting = 0.1 + np.cumsum(1.0e-5 * (np.arange(6000) // 1500 % 2))
     assert repeated(coarse) == []
+    dithers = 0.1 + 1.0e-6 * np.round(0.7 * np.random.default_rng(7).standard_normal(6000))
+    dithers[2000:2003] = dithers[1999] + 1.0e-6 * np.array([0.25, 0.5, 0.75])  # rows that were lost
+    assert repeated(dithers) == []
+    fuzzy = dithers * (1.0 + 2.0e-16 * (np.arange(6000) % 7 == 0))  # equal but for arithmetic, here and there
+    assert repeated(fuzzy) == []
     assert repeated(np.round(resting, 6)) == []
 
 
@@ -146,11 +151,11 @@ def test_stray_readings_beside_another_effect_are_told_by_what_is_left_with_it()
     assert not any("replaced" in note for note in result.notes)
 
 
-def test_stray_readings_that_change_little_are_replaced_and_no_finding():
+def test_stray_readings_that_change_little_are_no_finding():
     """20 times the noise of the position, three times a run, and the force is loud."""
     measured, rng = with_strays(pair(coulomb), 2.0e-5, 2900), np.random.default_rng(4)
     loud = [r.channels | {"force": r.channels["force"] + 0.3 * rng.standard_normal(len(r.time))} for r in measured.runs]
     runs = tuple(dataclasses.replace(r, channels=c) for r, c in zip(measured.runs, loud, strict=True))
     result = joint_outcome(dataclasses.replace(measured, runs=runs)).result
     assert result.verdict == "none"
-    assert sum("they are replaced, which changes what is left little" in note for note in result.notes) == 1
+    assert not any("replaced" in note for note in result.notes)

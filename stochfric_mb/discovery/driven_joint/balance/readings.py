@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.discovery.driven_joint.mjcf.measured_columns import position_columns, with_column
-from stochfric_mb.discovery.inference.noise import white_noise
+from stochfric_mb.discovery.inference.noise import changes, white_noise
 from stochfric_mb.discovery.inference.stray_readings import LEAST, in_a_row, without
 from stochfric_mb.effects import Effect, kind_with_signature, make_effect
 from stochfric_mb.effects.traits import REPEATED_READING
@@ -39,6 +39,8 @@ MISSED = 4.0
 """Jump after them over the usual change between samples and over the resolution, from which the joint has moved on [-]."""
 AFTER = 5
 """Readings after such a jump that tell where the joint is: up to two of them may be wild."""
+LOST = 0.01
+"""Share of the changes that may be smaller than the resolution [-]."""
 FEWEST = 5
 """Fewest of either for a finding: fewer are accidents."""
 
@@ -83,8 +85,9 @@ def _beside(held: Sequence[tuple[int, int]], count: int) -> Mask:
 
 def repeated(values: Array) -> list[tuple[int, int]]:
     """Return the stretches in which a position is repeated though the joint moves on: first repeated one, and next new one."""
-    moved = np.abs(np.diff(values))
-    step = float(np.min(moved[moved > 0.0], initial=np.inf))  # the resolution, where there is one
+    moved = changes(values)
+    # the resolution, where there is one: rows that were lost and interpolated are fractions of it
+    step = float(np.quantile(moved[moved > 0.0], LOST)) if moved.any() else np.inf
     still = stretches(moved == 0.0)
     if _slower(moved, step):
         return [(first + 1, last + 1) for first, last in still]
@@ -125,7 +128,7 @@ def stray(values: Array) -> Mask:
     """
     away = values - np.convolve(values, np.array([-1.0, 4.0, 0.0, 4.0, -1.0]) / 6.0, mode="same")
     away[:2] = away[-2:] = 0.0
-    moved = np.abs(np.diff(values))
+    moved = changes(values)
     step = float(np.min(moved, where=moved > 0.0, initial=np.ptp(values)))  # the resolution, where there is one
     level = max(deviation(away, about=0.0), white_noise(values), step, 1.0e-300)
     far = np.abs(away) > STRAY * level
