@@ -37,7 +37,7 @@ from stochfric_mb.effects.traits import LATE
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.mechanisms import Cascade, Mjcf, PrismaticJoint, ProportionalDerivative, SpringSlider
-from stochfric_mb.scenario import Scenario
+from stochfric_mb.scenario import ABSOLUTE, Scenario
 
 Array = npt.NDArray[np.float64]
 Progress = Callable[[str], None]
@@ -380,8 +380,10 @@ def _not_corrected(source: Balances) -> list[str]:
     idle = [name for name, doubt in doubts.items() if doubt > 0.0 and name not in corrected and hasattr(mechanism, name)]
     if not idle:
         return []
+    zero = [name for name in idle if name not in ABSOLUTE and getattr(mechanism, name) == 0.0]
+    why = f" (of {', '.join(zero)} = 0 any share is 0: state another value)" if zero else ""
     return [
-        f"the uncertainty of {', '.join(idle)} is not used, and what is stated is taken as exact: records correct "
+        f"the uncertainty of {', '.join(idle)} is not used{why}, and what is stated is taken as exact: records correct "
         f"{', '.join(corrected) or 'nothing'} here, and friction by mu_k"
     ]
 

@@ -15,6 +15,7 @@ from stochfric_mb.discovery.driven_joint.decision.released import Released, _dri
 from stochfric_mb.discovery.driven_joint.decision.selection import Selector, Trial, simplest_first
 from stochfric_mb.discovery.driven_joint.fit.beliefs import at_end, beliefs
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
+from stochfric_mb.discovery.driven_joint.joint_workflow import _not_corrected
 from stochfric_mb.discovery.driven_joint.next_experiment import next_experiment
 from stochfric_mb.discovery.driven_joint.scatter.run_scatter import run_scatter
 from stochfric_mb.discovery.driven_joint.search.candidate_fits import is_none
@@ -339,3 +340,9 @@ def test_beside_an_effect_a_mass_may_be_more_and_not_less(mass, asked):
     )
     freed = beyond_beliefs(within, selector._balances, selector._nuisances, 0.1, beside=True, without=frozenset())
     assert any(f.number.name == "mass" for f in freed) is asked
+
+
+def test_a_share_of_a_number_that_is_zero_is_no_uncertainty_and_said_so():
+    scenario = dataclasses.replace(pair(coulomb).scenario, uncertainty={"mass": 0.1, "damping": 0.3, "normal_force": 0.1})
+    (said,) = _not_corrected(source_of(dataclasses.replace(pair(coulomb), scenario=scenario)))
+    assert said.startswith("the uncertainty of damping, normal_force is not used (of damping = 0 any share is 0")
