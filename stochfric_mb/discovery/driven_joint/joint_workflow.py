@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-import itertools
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -12,25 +11,22 @@ import numpy.typing as npt
 
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.balance.balances import Balances
-from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
 from stochfric_mb.discovery.driven_joint.balance.late_channel import brought_forward, late_channel
 from stochfric_mb.discovery.driven_joint.balance.readings import mended
 from stochfric_mb.discovery.driven_joint.balance.timing import NAMED
-from stochfric_mb.discovery.driven_joint.balance.weak_form import least_width
 from stochfric_mb.discovery.driven_joint.decision.adequacy import drawn_by_one, drawn_by_two, endless, inadequate
 from stochfric_mb.discovery.driven_joint.decision.carry_over import with_idle, with_unnamed
 from stochfric_mb.discovery.driven_joint.decision.selection import Stage
 from stochfric_mb.discovery.driven_joint.decision.signs import require_dissipation
 from stochfric_mb.discovery.driven_joint.decision.verdict import verdict
-from stochfric_mb.discovery.driven_joint.fit.fitting import fit, prior_weight
-from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
 from stochfric_mb.discovery.driven_joint.joint_result import JointOutcome, PlaceOutcome
 from stochfric_mb.discovery.driven_joint.place import place_outcome, share_by_delay
+from stochfric_mb.discovery.driven_joint.replaced_readings import as_named, as_stated, error_kept, with_readings
 from stochfric_mb.discovery.driven_joint.simulation.augmented import augmented
 from stochfric_mb.discovery.driven_joint.simulation.controller_check import controller_misfit, disbelieved
 from stochfric_mb.discovery.driven_joint.simulation.pictures import friction_picture
 from stochfric_mb.discovery.driven_joint.simulation.resimulation import simulated
-from stochfric_mb.discovery.driven_joint.simulation.scores import Score, rms
+from stochfric_mb.discovery.driven_joint.sliding import require_sliding
 from stochfric_mb.discovery.driven_joint.source import source_of
 from stochfric_mb.effects import Effect, kind_with_signature
 from stochfric_mb.effects.traits import LATE
@@ -41,10 +37,6 @@ from stochfric_mb.scenario import ABSOLUTE, Scenario
 
 Array = npt.NDArray[np.float64]
 Progress = Callable[[str], None]
-Plain = tuple[JointModel, Sequence[Nuisance], float]
-"""A model of a place, numbers of its mechanism with their priors, and how beliefs weigh, as of `fit`."""
-FEWEST = 8
-"""Fewest windows of sliding in the runs of a role: fewer say nothing about friction."""
 ANSWERS = 3
 """Answers that are tried, each without what led those before it: the held-out runs judge so many, and no more."""
 CONTROLLED = {Cascade.kind: PrismaticJoint.kind, ProportionalDerivative.kind: Mjcf.kind}
@@ -79,72 +71,14 @@ def joint_outcome(dataset: Dataset, *, progress: Progress | None = None) -> Join
     if not readings:
         return _outcome(as_read, tell, (), notes, None)
     repaired = source_of(better)
-    left = _left_by(as_read, repaired, {name: _stated(as_read, name) for name in as_read.places})
+    left = error_kept(as_read, repaired, {name: as_stated(as_read, name) for name in as_read.places})
     if left >= 1.0 - criteria.MATERIAL:  # beside the stated model they matter little, but perhaps beside what it lacks
         outcome = _outcome(as_read, tell, (), notes, None)
-        found = {p.place: _named(p) for p in outcome.places}
-        if _left_by(as_read, repaired, found, {p.place: p.late for p in outcome.places}) >= 1.0 - criteria.MATERIAL:
+        found = {p.place: as_named(p) for p in outcome.places}
+        if error_kept(as_read, repaired, found, {p.place: p.late for p in outcome.places}) >= 1.0 - criteria.MATERIAL:
             return outcome
     mostly = left**2 <= 1.0 - criteria.EXPLAINED_HELD_OUT
     return _outcome(repaired, tell, readings, notes, as_read if mostly else None)
-
-
-def _stated(source: Balances, name: str) -> Plain:
-    model = source.stated(name)
-    return model, source.nuisances(name), model.law.mu_k * model.load
-
-
-def _named(place: PlaceOutcome) -> Plain:
-    final = place.selected.final
-    return final.model, place.selected.nuisances, prior_weight(final)
-
-
-def _left_by(
-    as_read: Balances, repaired: Balances, models: Mapping[str, Plain], late: Mapping[str, float] | None = None
-) -> float:
-    """Return the least part that the error of a place's balance keeps with wrong readings replaced, seen alike [-].
-
-    Args:
-        as_read: balances with the readings as they were.
-        repaired: the same with wrong ones replaced.
-        models: place -> the model of it from which fits begin, numbers of its mechanism, and how beliefs weigh.
-        late: place -> by how much positions come late there, beyond what is stated [s].
-    """
-    parts: list[float] = []
-    if _hardly_sliding(as_read) is not None:  # as it was read, nothing could be said: a position that is new now and then
-        return 0.0
-    for name, (model, nuisances, noise) in models.items():
-        delay = as_read.stated_delay + (late or {}).get(name, 0.0)
-        before = as_read.balances(name, "fit", delay)
-        width = round(float(np.median([s.window.half_width / s.window.interval for s in before])))
-        raw, mended_ones = (s.balances(name, "fit", delay, width) for s in (as_read, repaired))
-        seen = [_where_sliding(raw, mended_ones), mended_ones]
-        error, replaced = (fit(model, s, nuisances, noise=noise).rms for s in seen)
-        parts.append(replaced / error)
-    return min(parts)
-
-
-def _where_sliding(as_read: Sequence[ForceBalance], repaired: Sequence[ForceBalance]) -> list[ForceBalance]:
-    """Return balances of readings as they were, where the joint slides: a stray reading turns a motion round in its window."""
-    return [
-        dataclasses.replace(raw, sliding=better.sliding) if len(raw.sliding) == len(better.sliding) else raw
-        for raw, better in zip(as_read, repaired, strict=True)
-    ]
-
-
-def _with_readings(place: PlaceOutcome, as_read: Balances) -> PlaceOutcome:
-    """Return a place whose errors without effects are those of the readings as they were, seen through the same windows."""
-    width = round(float(np.median([s.window.half_width / s.window.interval for s in place.test])))
-    seen = [as_read.balances(place.place, role, as_read.stated_delay, width) for role in ("fit", "test")]
-    seen = [_where_sliding(*pair) for pair in zip(seen, (place.fit, place.test), strict=True)]
-    if not all(any(s.sliding.any() for s in some) for some in seen):
-        return place
-    fitted = fit(place.stated, seen[0], place.nuisances, noise=place.stated.law.mu_k * place.stated.load).model
-    errors: dict[str, Score] = {}
-    for label, model in (("baseline", place.stated), ("recalibrated", fitted)):
-        rest = np.concatenate([model.remainder(s, place.nuisances)[s.sliding] for s in seen[1]])
-        errors[label] = dataclasses.replace(place.scores[label], sliding=rms(rest))
-    return dataclasses.replace(place, scores=dict(place.scores) | errors)
 
 
 def _fits_better(before: Sequence[PlaceOutcome], after: Sequence[PlaceOutcome]) -> bool:
@@ -190,9 +124,9 @@ def require_usable(dataset: Dataset) -> None:
     source = source_of(dataset)
     if readings:
         repaired = source_of(better)
-        left = _left_by(source, repaired, {name: _stated(source, name) for name in source.places})
+        left = error_kept(source, repaired, {name: as_stated(source, name) for name in source.places})
         source = repaired if left < 1.0 - criteria.MATERIAL else source
-    _require_sliding(source)
+    require_sliding(source)
     for name in source.places:
         require_dissipation(dataset, name, source.balances(name, "fit", source.stated_delay))
 
@@ -209,7 +143,7 @@ def _outcome(
         said: what the reader should know already.
         as_read: balances with the readings as they were, where replacing these explains more than it leaves.
     """
-    _require_sliding(source)
+    require_sliding(source)
     notes = [*said]
     places = _places(source, tell, notes)
     channel = late_channel(source, places)
@@ -227,7 +161,7 @@ def _outcome(
     places, floor = _adequate(source, tell, places)
     places = [with_idle(dataclasses.replace(p, mended=bool(readings))) for p in places]
     # an answer with a name has no term without one
-    places[0] = with_unnamed(dataset, places[0]) if as_read is None else _with_readings(places[0], as_read)
+    places[0] = with_unnamed(dataset, places[0]) if as_read is None else with_readings(places[0], as_read)
     notes += _run_notes(dataset) + _not_corrected(source)
     result = verdict(dataset, places, notes, floor, readings, channel, mostly=as_read is not None)
     pictures = tuple(map(friction_picture, places))
@@ -317,60 +251,6 @@ def _places(source: Any, tell: Progress, notes: list[str], *, timed: bool = True
             outcomes[name] = place_outcome(source, tell, name, [])
             source.known[name] = outcomes[name].selected.final.model
     return list(outcomes.values())
-
-
-def _require_sliding(source: Balances) -> None:
-    """Return if every place slides in the runs of both roles.
-
-    Raises:
-        InputError: one hardly does.
-    """
-    found = _hardly_sliding(source)
-    if found is not None:
-        name, role, balances = found
-        runs = ", ".join(s.run for s in balances)
-        where = f"joint {name!r}" if name else "the joint"
-        raise InputError(
-            f"{where} slides one way in only {_windows(balances)} windows of the runs with role {role!r} ({runs}); at least "
-            f"{FEWEST} are needed: record longer or livelier motion, or check units and columns of position and drive"
-            f"{_widened(balances, source.dataset.scenario.law.mu_k * source.places[name])}"
-        )
-
-
-def _widened(balances: Sequence[ForceBalance], friction: float) -> str:
-    """Return how wide the widest windows are, and whose noise made them so; empty: they are the narrowest.
-
-    Args:
-        balances: the balances of a place.
-        friction: what is stated of its friction [N or N m].
-    """
-    widest = max(balances, key=lambda b: b.window.half_width)
-    seen = widest.window
-    narrow = dataclasses.replace(seen, half_width=least_width(seen.count) * seen.interval)
-    if not widest.white or seen.half_width <= narrow.half_width:
-        return ""
-    noise = {derivative: narrow.gain(derivative) * size for derivative, size in widest.white.items()}
-    loudest = max(noise, key=lambda derivative: noise[derivative])
-    wide, least = (2.0 * window.half_width for window in (seen, narrow))
-    return (
-        f". Its windows are up to {wide:.2g} s wide ({least:.2g} s without noise), and it has to slide one way through all of "
-        f"one: in narrow ones the noise of the {'position' if loudest else 'drive'} is {noise[loudest]:.3g} {widest.unit}, "
-        f"beside {friction:.3g} {widest.unit} of friction; record it with less noise (a controller that chatters is part of "
-        "that), or slides that last longer"
-    )
-
-
-def _hardly_sliding(source: Balances) -> tuple[str, str, list[ForceBalance]] | None:
-    """Return a place that slides in too few windows of the runs of a role, with these; None: there is none."""
-    for name, role in itertools.product(source.places, ("fit", "test")):
-        balances = source.balances(name, role, source.stated_delay)
-        if _windows(balances) < FEWEST:
-            return name, role, balances
-    return None
-
-
-def _windows(balances: Sequence[ForceBalance]) -> int:
-    return sum(int(s.sliding.sum()) for s in balances)
 
 
 def _not_corrected(source: Balances) -> list[str]:

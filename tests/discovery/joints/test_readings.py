@@ -6,9 +6,14 @@ import numpy as np
 import pytest
 
 from stochfric_mb.discovery.driven_joint import joint_outcome
-from stochfric_mb.discovery.driven_joint.balance.readings import repeated, stray
+from stochfric_mb.discovery.driven_joint.balance.readings import mended, repeated, stray
 from stochfric_mb.discovery.driven_joint.joint_workflow import require_usable
+from stochfric_mb.discovery.driven_joint.replaced_readings import as_stated, error_kept
+from stochfric_mb.discovery.driven_joint.sliding import FEWEST, hardly_sliding, require_sliding
+from stochfric_mb.discovery.driven_joint.source import source_of
 from stochfric_mb.discovery.inference.stray_readings import without
+from stochfric_mb.effects import make_effect
+from stochfric_mb.errors import InputError
 from stochfric_mb.measurement import load_dataset
 from tests.discovery.joint_generator.case import Case, write
 from tests.discovery.joints.test_parts import coulomb, pair
@@ -151,6 +156,16 @@ def test_stray_readings_beside_another_effect_are_told_by_what_is_left_with_it()
     assert not any("replaced" in note for note in result.notes)
 
 
+def test_what_replacing_readings_is_worth_depends_on_what_is_named_beside_it():
+    measured = with_strays(pair(drag), 1.0e-4)
+    as_read, repaired = source_of(measured), source_of(mended(measured)[0])
+    stated = {"": as_stated(as_read, "")}
+    model, nuisances, noise = stated[""]
+    named = {"": (model.plus(make_effect("viscous_friction", coefficient=40.0)), nuisances, 0.05 * noise)}
+    assert error_kept(as_read, repaired, stated) > 0.99
+    assert error_kept(as_read, repaired, named) < 0.4
+
+
 def test_stray_readings_that_change_little_are_no_finding():
     """20 times the noise of the position, three times a run, and the force is loud."""
     measured, rng = with_strays(pair(coulomb), 2.0e-5, 2900), np.random.default_rng(4)
@@ -159,3 +174,13 @@ def test_stray_readings_that_change_little_are_no_finding():
     result = joint_outcome(dataclasses.replace(measured, runs=runs)).result
     assert result.verdict == "none"
     assert not any("replaced" in note for note in result.notes)
+
+
+def test_a_joint_that_rests_all_the_time_is_refused_with_what_to_change():
+    moves, rng = pair(coulomb), np.random.default_rng(0)
+    assert hardly_sliding(source_of(moves)) is None
+    require_sliding(source_of(moves))
+    still = [r.channels | {"position": 1.0e-6 * rng.standard_normal(len(r.time))} for r in moves.runs]
+    runs = tuple(dataclasses.replace(r, channels=c) for r, c in zip(moves.runs, still, strict=True))
+    with pytest.raises(InputError, match=f"at least {FEWEST} are needed: record longer or livelier motion, or check units"):
+        require_sliding(source_of(dataclasses.replace(moves, runs=runs)))
