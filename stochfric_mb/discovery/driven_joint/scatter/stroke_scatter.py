@@ -55,10 +55,10 @@ class StrokeScatter(CoefficientScatter):
         return self.inside <= FLOOR * self.floor
 
     @property
-    def most_of_it(self) -> bool:
-        """Whether the scatter explains nine tenths of the squared error, noise apart: one number a stroke is an exact form."""
+    def nearly_all_of_it(self) -> bool:
+        """Whether what is left within strokes, noise apart, is no material part of the squared error."""
         more = max(self.inside**2 - self.floor**2, 0.0)
-        return self.all_of_it or self.level**2 >= criteria.EXPLAINED_BY_MECHANICS * (self.level**2 + more)
+        return self.all_of_it or more < criteria.MATERIAL * (self.level**2 + more)
 
     @property
     def wanders(self) -> bool:
@@ -78,7 +78,7 @@ class StrokeScatter(CoefficientScatter):
     @property
     def named(self) -> bool:
         """Whether it is a finding."""
-        return super().named and self.most_of_it and not self.wanders and not self.slow_noise
+        return super().named and self.nearly_all_of_it and not self.wanders and not self.slow_noise
 
 
 def stroke_scatter(
