@@ -48,12 +48,17 @@ def error_kept(
     for name, (model, nuisances, noise) in models.items():
         delay = as_read.stated_delay + (late or {}).get(name, 0.0)
         before = as_read.balances(name, "fit", delay)
-        width = round(float(np.median([s.window.half_width / s.window.interval for s in before])))
+        width = _width(before)
         raw, mended_ones = (s.balances(name, "fit", delay, width) for s in (as_read, repaired))
         seen = [_where_sliding(raw, mended_ones), mended_ones]
         error, replaced = (fit(model, s, nuisances, noise=noise).rms for s in seen)
         parts.append(replaced / error)
     return min(parts)
+
+
+def _width(balances: Sequence[ForceBalance]) -> int:
+    """Return the usual half width of windows [samples]."""
+    return round(float(np.median([s.window.half_width / s.window.interval for s in balances])))
 
 
 def _where_sliding(as_read: Sequence[ForceBalance], repaired: Sequence[ForceBalance]) -> list[ForceBalance]:
@@ -66,7 +71,7 @@ def _where_sliding(as_read: Sequence[ForceBalance], repaired: Sequence[ForceBala
 
 def with_readings(place: PlaceOutcome, as_read: Balances) -> PlaceOutcome:
     """Return a place whose errors without effects are those of the readings as they were, seen through the same windows."""
-    width = round(float(np.median([s.window.half_width / s.window.interval for s in place.test])))
+    width = _width(place.test)
     seen = [as_read.balances(place.place, role, as_read.stated_delay, width) for role in ("fit", "test")]
     seen = [_where_sliding(*pair) for pair in zip(seen, (place.fit, place.test), strict=True)]
     if not all(any(s.sliding.any() for s in some) for some in seen):

@@ -67,6 +67,22 @@ def changes(signal: Array) -> Array:
     return np.where(moved > ARITHMETIC * np.max(np.abs(signal), initial=0.0), moved, 0.0)
 
 
+def resolution(signal: Array) -> float:
+    """Return the step in which a signal comes; 0: it comes in none, or moves so evenly that none shows."""
+    each = changes(signal)
+    moved = each[each > 0.0]
+    if not len(moved) or len(each) < 3:
+        return 0.0
+    step = float(moved.min())
+    few = moved[moved < FEW_STEPS * step] / step
+    between = bool(np.any((each[1:-1] == 0.0) & (each[:-2] > 0.0) & (each[2:] > 0.0)))
+    if np.mean(np.abs(few - np.round(few)) < ON_STEP) < MOST_ON_STEP or not (between or np.ptp(np.round(few)) >= 1.0):
+        return 0.0
+    # a parabola comes in steps, too
+    rough = np.count_nonzero((np.abs(np.diff(signal, 3)) > 0.5 * step) & (each[1:-1] > 0.0))
+    return step if rough > LEAST_ROUGH * len(moved) else 0.0
+
+
 def rounding_noise(signal: Array) -> float:
     """Return the standard deviation of the rounding error of a signal that comes in steps, step/sqrt(12); 0: in none.
 
@@ -74,13 +90,7 @@ def rounding_noise(signal: Array) -> float:
 
     Reference: B. Widrow, I. Kollar, Quantization Noise, Cambridge 2008, section 4.2 (Sheppard's correction).
     """
-    moved = changes(signal)
-    step = float(np.min(moved, where=moved > 0.0, initial=np.inf))
-    few = moved[(moved > 0.0) & (moved < FEW_STEPS * step)] / step
-    if not len(few) or np.mean(np.abs(few - np.round(few)) < ON_STEP) < MOST_ON_STEP or np.ptp(np.round(few)) < 1.0:
-        return 0.0
-    rough = np.mean(np.abs(np.diff(signal, 3)) > 0.5 * step)  # a parabola comes in steps, too
-    return step / float(np.sqrt(12.0)) if rough > LEAST_ROUGH else 0.0
+    return resolution(signal) / float(np.sqrt(12.0))
 
 
 def _noise_level(signal: Array) -> float:

@@ -184,3 +184,11 @@ def test_a_joint_that_rests_all_the_time_is_refused_with_what_to_change():
     runs = tuple(dataclasses.replace(r, channels=c) for r, c in zip(moves.runs, still, strict=True))
     with pytest.raises(InputError, match=f"at least {FEWEST} are needed: record longer or livelier motion, or check units"):
         require_sliding(source_of(dataclasses.replace(moves, runs=runs)))
+
+
+def test_a_wild_reading_of_an_even_motion_without_noise_is_found():
+    """Each sample is 3e-4 after the one before and shows no resolution; six of them off is wild."""
+    x = 3.0e-4 * np.arange(3000.0)
+    assert not stray(x).any()
+    x[1500] += 2.0e-3
+    assert np.flatnonzero(stray(x)).tolist() == [1500]

@@ -5,7 +5,7 @@ import pytest
 from scipy.interpolate import CubicSpline
 from scipy.signal import butter, lfilter
 
-from stochfric_mb.discovery.inference.noise import PIECE, noise_level, rounding_noise, white_noise
+from stochfric_mb.discovery.inference.noise import PIECE, noise_level, resolution, rounding_noise, white_noise
 
 RATE = 2000.0
 TIME = np.arange(20_000) / RATE
@@ -78,6 +78,12 @@ def test_counts_of_a_clean_encoder_have_the_noise_of_their_rounding_though_it_re
     assert noise_level(counts) == pytest.approx(1.0e-5 / np.sqrt(12.0), rel=1.0e-6)
     printed = np.round(counts / 3.0, 7)  # the file rounds a count of 3.3e-6 to 1e-7
     assert rounding_noise(printed) == pytest.approx(1.0e-5 / 3.0 / np.sqrt(12.0), rel=0.05)
+
+
+def test_the_resolution_shows_however_long_the_signal_rests():
+    t = np.arange(100_000) * 1.0e-3
+    counts = np.round(3.0e-5 * np.maximum(t - 99.0, 0.0) ** 2 / 1.0e-7) * 1.0e-7
+    assert resolution(counts) == pytest.approx(1.0e-7, rel=1.0e-6)
 
 
 def test_what_does_not_come_in_steps_has_no_rounding():

@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.discovery.driven_joint.mjcf.measured_columns import position_columns, with_column
-from stochfric_mb.discovery.inference.noise import changes, white_noise
+from stochfric_mb.discovery.inference.noise import changes, resolution, white_noise
 from stochfric_mb.discovery.inference.stray_readings import LEAST, in_a_row, without
 from stochfric_mb.effects import Effect, kind_with_signature, make_effect
 from stochfric_mb.effects.traits import REPEATED_READING
@@ -128,9 +128,7 @@ def stray(values: Array) -> Mask:
     """
     away = values - np.convolve(values, np.array([-1.0, 4.0, 0.0, 4.0, -1.0]) / 6.0, mode="same")
     away[:2] = away[-2:] = 0.0
-    moved = changes(values)
-    step = float(np.min(moved, where=moved > 0.0, initial=np.ptp(values)))  # the resolution, where there is one
-    level = max(deviation(away, about=0.0), white_noise(values), step, 1.0e-300)
+    level = max(deviation(away, about=0.0), white_noise(values), resolution(values), 1.0e-300)
     far = np.abs(away) > STRAY * level
     alone = far.copy()
     for neighbour in (np.roll(away, 1), np.roll(away, -1)):
