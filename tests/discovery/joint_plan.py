@@ -40,6 +40,8 @@ from .joint_generator.unseen_twelfth import PAIRS as UNSEEN_TWELFTH_PAIRS
 from .joint_generator.unseen_twelfth import UNSEEN_TWELFTH
 from .joint_generator.unseen_twentieth import PAIRS as UNSEEN_TWENTIETH_PAIRS
 from .joint_generator.unseen_twentieth import UNSEEN_TWENTIETH
+from .joint_generator.unseen_twentyfirst import PAIRS as UNSEEN_TWENTYFIRST_PAIRS
+from .joint_generator.unseen_twentyfirst import UNSEEN_TWENTYFIRST
 
 STRENGTHS = (1.0, 0.5)
 
@@ -109,6 +111,7 @@ SERIES = {
     18: (UNSEEN_EIGHTEENTH, UNSEEN_EIGHTEENTH_PAIRS),
     19: (UNSEEN_NINETEENTH, UNSEEN_NINETEENTH_PAIRS),
     20: (UNSEEN_TWENTIETH, UNSEEN_TWENTIETH_PAIRS),
+    21: (UNSEEN_TWENTYFIRST, UNSEEN_TWENTYFIRST_PAIRS),
 }
 """Sets of forms for a report, with their pairs."""
 

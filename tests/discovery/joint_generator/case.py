@@ -34,6 +34,7 @@ from .unseen_third import UNSEEN_THIRD
 from .unseen_thirteenth import UNSEEN_THIRTEENTH
 from .unseen_twelfth import UNSEEN_TWELFTH
 from .unseen_twentieth import UNSEEN_TWENTIETH
+from .unseen_twentyfirst import UNSEEN_TWENTYFIRST
 
 VOCABULARY = frozenset(
     (
@@ -52,6 +53,7 @@ LINKS = frozenset(("joint_compliance", "backlash"))
 _WITH_LINKS = UNSEEN_FIFTH | UNSEEN_SIXTH | UNSEEN_SEVENTH | UNSEEN_EIGHTH | UNSEEN_NINTH
 _WITH_LINKS |= UNSEEN_TENTH | UNSEEN_ELEVENTH | UNSEEN_TWELFTH | UNSEEN_THIRTEENTH | UNSEEN_FOURTEENTH | UNSEEN_FIFTEENTH
 _WITH_LINKS |= UNSEEN_SIXTEENTH | UNSEEN_SEVENTEENTH | UNSEEN_EIGHTEENTH | UNSEEN_NINETEENTH | UNSEEN_TWENTIETH
+_WITH_LINKS |= UNSEEN_TWENTYFIRST
 _BEFORE = 1.0  # s under control before a record begins
 
 

@@ -65,7 +65,7 @@ class Form:
     options: dict[str, object]
     """What is special about its records (`records.py`)."""
     series: int = 1
-    """The set that it was written for: 1, 2 (`second_forms.py`), 3 (`third`), and so on to 17 (`seventeenth`)."""
+    """The set that it was written for: 1, 2 (`second_forms.py`), 3 (`third`), and so on to 18 (`eighteenth`)."""
 
     def right(self, design: str) -> frozenset[str]:
         """Return the first names that count as right in `design`."""

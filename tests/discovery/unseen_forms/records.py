@@ -10,7 +10,8 @@ from zlib import crc32
 import numpy as np
 from scipy.signal import lfilter
 
-from . import (  # each enters its forms; `seventeenth` has the others enter theirs first: rigs in turn hang on the order
+from . import (  # each enters its forms; `eighteenth` has the others enter theirs first: rigs in turn hang on the order
+    eighteenth,  # noqa: F401
     eighth,  # noqa: F401
     eleventh,  # noqa: F401
     fifteenth,  # noqa: F401
@@ -23,6 +24,7 @@ from . import (  # each enters its forms; `seventeenth` has the others enter the
     ninth,  # noqa: F401
     null_forms,  # noqa: F401
     second_forms,  # noqa: F401
+    seventeenth,  # noqa: F401
     seventeenth,  # noqa: F401
     seventh,  # noqa: F401
     sixteenth,  # noqa: F401
