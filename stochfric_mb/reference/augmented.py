@@ -105,6 +105,7 @@ def augmented_system(
     seed: int = 0,
     sample: int = 0,
     temperature: tuple[Array, Array] | None = None,
+    tolerance: float | None = None,
 ) -> AugmentedSystem:
     """Return a belt-box with effects, ready to march.
 
@@ -116,6 +117,7 @@ def augmented_system(
         seed: first part of the address of random numbers.
         sample: second part.
         temperature: times [s], evenly spaced, and measured temperatures there [degC], `TEMPERATURES` of each; None: none was.
+        tolerance: local error of a step over the static deflection [-]; None: as small as a run of many cycles needs.
 
     Raises:
         InputError: a law that the fast simulator does not know, two processes, more effects than it has room for, or an effect
@@ -128,7 +130,7 @@ def augmented_system(
     _set_mechanism(run, mechanism, places)
     _set_law(run, law, places)
     _set_effects(run, effects, places)
-    _set_numerics(run, mechanism, law, effects, path)
+    _set_numerics(run, mechanism, law, effects, path, tolerance)
     _set_temperature(run, effects, temperature)
     return AugmentedSystem(mechanism, law, tuple(effects), process, run, path.descriptor, places)
 
@@ -397,7 +399,9 @@ def _set_temperature(run: Any, effects: Sequence[Effect], temperature: tuple[Arr
             raise InputError(f"effect {effect.kind!r} reads a temperature, and none is given; leave it out")
 
 
-def _set_numerics(run: Any, mechanism: BeltBox, law: Law, effects: Sequence[Effect], path: CoefficientPath) -> None:
+def _set_numerics(
+    run: Any, mechanism: BeltBox, law: Law, effects: Sequence[Effect], path: CoefficientPath, tolerance: float | None
+) -> None:
     m = augmented_model
     c = run.constants
     natural = max(math.sqrt(mechanism.stiffness / mechanism.mass), mechanism.damping / mechanism.mass)
@@ -408,7 +412,7 @@ def _set_numerics(run: Any, mechanism: BeltBox, law: Law, effects: Sequence[Effe
     shortest = min((effect.shortest_time(abs(mechanism.belt_velocity)) for effect in effects), default=math.inf)
     in_slip = min((effect.shortest_time(speed) for effect in effects), default=math.inf)
     c[m.SEED], c[m.SAMPLE], c[m.CONTACT] = path.seed, path.sample, path.contact
-    c[m.TOLERANCE] = (TOLERANCE_SPRING if c[m.LIMIT] > 0.0 else TOLERANCE) * static
+    c[m.TOLERANCE] = (tolerance or (TOLERANCE_SPRING if c[m.LIMIT] > 0.0 else TOLERANCE)) * static
     c[m.RESTART] = RESTART * math.sqrt(mechanism.mass / mechanism.stiffness)
     c[m.LONGEST_SLIDE] = min(0.25 / fastest, 0.1 * in_slip)
     descriptor = path.descriptor

@@ -25,7 +25,6 @@ from . import (  # each enters its forms; `eighteenth` has the others enter thei
     null_forms,  # noqa: F401
     second_forms,  # noqa: F401
     seventeenth,  # noqa: F401
-    seventeenth,  # noqa: F401
     seventh,  # noqa: F401
     sixteenth,  # noqa: F401
     sixth,  # noqa: F401
