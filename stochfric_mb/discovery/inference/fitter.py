@@ -22,6 +22,8 @@ Array = npt.NDArray[np.float64]
 DAMPING, LEAST_DAMPING, CHANGE = 1.0e-4, 1.0e-9, 10.0
 """Damping at the start and at least, over the curvature, and the factor by which it falls after a step that
 helped and rises after one that did not [-]."""
+WIDEST = 1.0
+"""Widest difference, in the numbers' own unit [-]."""
 STRAIGHT = 1.0e-6
 """Fall of the cost over itself by a last step so short that the derivatives are as they were [-]."""
 
@@ -50,6 +52,7 @@ def minimised(
     tolerance: float,
     outlying: float | Array = np.inf,
     stride: float | Array = np.inf,
+    telling: float = 0.0,
     threads: bool = False,
 ) -> Minimum:
     """Return where the sum of squares is smallest; where it or its slopes are no numbers, the last point at which they were.
@@ -65,13 +68,15 @@ def minimised(
         outlying: residuals beyond this, one for all or shape (n,), count by their size, not its square: the loss is
             C^2 (sqrt(1 + (r/C)^2) - 1).
         stride: largest change of a number in one iteration, one for all or shape (p,): a step that is longer is shortened.
+        telling: change of the residuals that a difference has to make, to be told from their roughness; one that makes less is
+            widened from one iteration to the next, up to `WIDEST`.
         threads: whether derivatives are taken in several threads, where compiled code makes the residuals: they stay the same.
     """
-    anew = functools.partial(_slopes, errors, low=low, high=high, difference=difference, threads=threads)
+    anew = functools.partial(_slopes, errors, low=low, high=high, threads=threads)
     x = np.clip(first, low, high)
     rest = errors(x)
     cost = _cost(rest, outlying)
-    slopes = anew(x, rest)
+    slopes = anew(x, rest, np.full(len(x), difference))
     damping = DAMPING
     for _ in range(evaluations):
         if not (np.isfinite(cost) and np.isfinite(slopes).all()):
@@ -98,10 +103,16 @@ def minimised(
         damping = max(damping / CHANGE, LEAST_DAMPING)
         done = fall < tolerance * (cost + fall)
         if not done or fall > STRAIGHT * (cost + fall):
-            slopes = anew(x, rest)
+            slopes = anew(x, rest, _told(slopes, telling, difference))
         if done:
             break
     return Minimum(x, _weighted(slopes, rest, outlying)[0], cost)
+
+
+def _told(slopes: Array, telling: float, difference: float) -> Array:
+    """Return the differences at which each number changes the residuals by ``telling``, shape (p,)."""
+    size = np.linalg.norm(slopes, axis=0)
+    return np.clip(telling / np.maximum(size, telling / WIDEST + 1.0e-300), difference, max(WIDEST, difference))
 
 
 def _cost(rest: Array, outlying: float | Array) -> float:
@@ -127,11 +138,11 @@ def _weighted(slopes: Array, rest: Array, outlying: float | Array) -> tuple[Arra
 
 
 def _slopes(
-    errors: Callable[[Array], Array], at: Array, here: Array, *, low: Array, high: Array, difference: float, threads: bool
+    errors: Callable[[Array], Array], at: Array, here: Array, differences: Array, *, low: Array, high: Array, threads: bool
 ) -> Array:
     def column(j: int) -> Array:
         moved = at.copy()
-        moved[j] += difference if at[j] + difference <= high[j] else -difference
+        moved[j] += differences[j] if at[j] + differences[j] <= high[j] else -differences[j]
         if moved[j] < low[j]:  # the bounds are closer together than the step, which is then what fits between them
             moved[j] = high[j] if high[j] - at[j] > at[j] - low[j] else low[j]
         with np.errstate(invalid="ignore"):  # errors that are infinite have no slopes

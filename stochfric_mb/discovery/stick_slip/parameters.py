@@ -97,6 +97,7 @@ def moved(parameters: Mapping[str, Interval], dataset: Dataset, unmeasured: Sequ
     for name, interval in parameters.items():
         stated = getattr(scenario.mechanism, name, None) or getattr(scenario.law, name, None)
         doubt = scenario.uncertainty.get(name, 0.0)
-        if stated and doubt and name not in unmeasured:
+        # what an effect leaves open is not off where its interval holds what is stated
+        if stated and doubt and name not in unmeasured and not interval.low <= stated <= interval.high:
             off[name] = (interval.value - stated) / (stated * doubt)
     return {name: by for name, by in off.items() if abs(by) > criteria.SURPRISING}

@@ -21,6 +21,7 @@ from stochfric_mb.discovery.stick_slip.records.record import CORRECTED
 from stochfric_mb.discovery.stick_slip.records.slips import Slips
 from stochfric_mb.discovery.stick_slip.refusal import refusal
 from stochfric_mb.discovery.stick_slip.screening.power import smallest
+from stochfric_mb.discovery.stick_slip.simulation.deviations import with_deviations
 from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import (
     HeldOut,
     deterministic,
@@ -31,7 +32,7 @@ from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import (
 )
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.simulation.prior_model import assumed
-from stochfric_mb.discovery.stick_slip.simulation.refit import Fit, refit, with_deviations
+from stochfric_mb.discovery.stick_slip.simulation.refit import Fit, refit
 from stochfric_mb.discovery.stick_slip.study import EVERYTHING, Channels, Progress, Study, slips_of_run, study
 from stochfric_mb.discovery.stick_slip.validation.anonymous import Anonymous, anonymous, sentence_of
 from stochfric_mb.discovery.stick_slip.validation.answers import (

@@ -27,7 +27,7 @@ class NonlinearStiffness(Effect):
 
     cubic: float = parameter("N/m^3", "spring force per cube of the deflection", scale=1.0e8)
     """Spring force per cube of the deflection [N/m^3]."""
-    quadratic: float = parameter("N/m^2", "spring force per square of the deflection", scale=2.0e5, default=0.0)
+    quadratic: float = parameter("N/m^2", "spring force per square of the deflection", scale=2.0e5, default=0.0, optional=True)
     """Spring force per square of the deflection [N/m^2]."""
     reach: float = parameter(
         "m", "deflection beyond which the force goes on along its tangent", scale=0.01, low=0.0, strict=True, infinite=True,

@@ -10,7 +10,8 @@ from stochfric_mb import load_scenario
 from stochfric_mb.discovery.inference.free_parameter import LAW, MECHANISM, FreeParameter
 from stochfric_mb.discovery.result import Interval
 from stochfric_mb.discovery.stick_slip.parameters import moved, not_measured, own_parameters
-from stochfric_mb.discovery.stick_slip.simulation.refit import WIDEST, Fit, _blind_to_scale, _with_priors
+from stochfric_mb.discovery.stick_slip.simulation.deviations import _blind_to_scale, _with_priors
+from stochfric_mb.discovery.stick_slip.simulation.refit import WIDEST, Fit
 from stochfric_mb.measurement.dataset import Dataset
 
 
@@ -35,7 +36,7 @@ def test_only_what_the_prior_made_is_named():
 
     numbers = [free("mu_s", LAW), free("damping", MECHANISM), free("amplitude", 0), free("mu_k", LAW, "run_1")]
     nothing = np.zeros(4)
-    fit = Fit(None, numbers, nothing, nothing, nothing, 0.0, data_share=np.array([0.9, 0.3, 0.1, 0.1]), posterior=nothing)
+    fit = Fit(None, numbers, nothing, nothing, 0.0, data_share=np.array([0.9, 0.3, 0.1, 0.1]), posterior=nothing)
     assert not_measured(fit) == ["damping"]
 
 
@@ -49,7 +50,6 @@ def test_an_interval_of_what_the_prior_made_is_no_wider_than_the_prior():
         numbers,
         np.zeros(1),
         np.array([0.063]),
-        np.zeros(1),
         0.0,
         data_share=np.array([0.08]),
         posterior=np.array([0.0096]),
@@ -116,3 +116,13 @@ def test_a_number_of_the_rig_that_is_exact_tells_it():
     _, erring, misfit = motion(0.02)
     misfit.free = [k for k in misfit.free if k.name != "damping"]
     assert np.array_equal(_blind_to_scale(np.delete(erring, 4, axis=1), misfit), np.delete(erring, 4, axis=1))
+
+
+def test_what_its_own_interval_leaves_open_is_not_off():
+    scenario = dataclasses.replace(load_scenario("kang2015_table1"), uncertainty={"stiffness": 0.02})
+    dataset = Dataset(title="", scenario_path=None, scenario=scenario, runs=())
+    stated = scenario.mechanism.stiffness
+    wide = Interval(1.1 * stated, 0.95 * stated, 1.25 * stated, "N/m")
+    assert moved({"stiffness": wide}, dataset, unmeasured=[]) == {}
+    sure = Interval(1.1 * stated, 1.08 * stated, 1.12 * stated, "N/m")
+    assert moved({"stiffness": sure}, dataset, unmeasured=[])["stiffness"] == pytest.approx(5.0)

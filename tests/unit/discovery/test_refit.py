@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from stochfric_mb.discovery.stick_slip.records.record import make_record
-from stochfric_mb.discovery.stick_slip.simulation import refit
+from stochfric_mb.discovery.stick_slip.simulation import deviations, refit
 from stochfric_mb.discovery.stick_slip.simulation.forecast import N_OUTPUTS, Windows
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.laws import make_law
@@ -37,7 +37,7 @@ def fitted(monkeypatch, windows, shown):
 
     monkeypatch.setattr(refit, "forecasts", forecasts)
     fit = refit.refit(MODEL, [windows], {}, most=COUNT)
-    wide = refit.with_deviations(fit, [windows], {}, most=COUNT)
+    wide = deviations.with_deviations(fit, [windows], {}, most=COUNT)
     return [dict(zip((k.name for k in f.free), f.deviations, strict=True)) for f in (fit, wide)]
 
 
@@ -107,3 +107,9 @@ def test_what_is_stated_weighs_more_where_forecasts_miss_more(missing, moved, mo
     fit = refit.refit(MODEL, [windows], {"stiffness": 0.01}, most=COUNT)
     # 2 % of stiffness, two stated deviations, are what the drift in the forecasts asks for
     assert fit.model.corrections["stiffness"] / 0.01 == pytest.approx(moved, abs=0.5)
+
+
+def test_numbers_that_make_up_for_each_other_are_left_open_together(monkeypatch, windows):
+    """Forecasts tell the sum of both coefficients, and, bent, next to nothing of their difference: no interval is narrower."""
+    _, wide = fitted(monkeypatch, windows, lambda s, k: GAIN * (s + k - 1.26) * (1.0 + 3.0 * (s - k)))
+    assert min(wide["mu_s"], wide["mu_k"]) > 20.0 * NOISE / GAIN / np.sqrt(6 * COUNT)

@@ -17,9 +17,8 @@ from stochfric_mb.discovery.inference.free_parameter import LAW, FreeParameter, 
 from stochfric_mb.discovery.stick_slip.decision.cases import Case, predict
 from stochfric_mb.discovery.stick_slip.records.record import CORRECTED, Array
 from stochfric_mb.discovery.stick_slip.records.slips import N_FEATURES
-from stochfric_mb.discovery.stick_slip.simulation.model import TUNED, Model, adjusted, free_parameters
+from stochfric_mb.discovery.stick_slip.simulation.model import STRENGTHS, TUNED, Model, adjusted, free_parameters
 from stochfric_mb.discovery.stick_slip.simulation.natural_units import NaturalUnits
-from stochfric_mb.discovery.stick_slip.simulation.strength import STRENGTHS
 
 PENALTY = float(np.log(60.0))
 """Evidence that each number of a candidate costs [-]: BIC's for 60 observations, whatever the record's length."""

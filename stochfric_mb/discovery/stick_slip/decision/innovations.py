@@ -90,9 +90,7 @@ def left_over(pool: Pool, model: Model, *, anew: bool = False) -> Pool:
         rows = np.flatnonzero(pool.run == r)
         with_effects = predicted_features(slips, model, pool.dwell[rows], range(len(rows)))
         forced = slips.record.mechanism.excitation_amplitude != 0.0
-        one = rows if forced else rows[:BETWEEN]
-        without = predicted_features(slips, plain, pool.dwell[rows], range(len(one)))
-        features[rows] -= with_effects - (without if forced else without.mean(axis=0))
+        features[rows] -= with_effects - plain_features(slips, plain, pool.dwell[rows], range(len(rows)), forced=forced)
         if anew:
             features[rows], calibrations[r] = _calibrated_anew(features[rows], slips, model, plain, calibrations[r])
         missed = ~np.isfinite(features[rows]).all(axis=1)
@@ -113,16 +111,48 @@ def _calibrated_anew(
     return features - (with_effects.bias - without.bias), after
 
 
-def predicted_features(slips: Slips, model: Model, dwell: Array, which: Sequence[int] | np.ndarray) -> Array:
-    """Return the features of some slips as the model predicts them [N], shape (n, N_FEATURES); nan where none slips."""
+def plain_features(slips: Slips, plain: Model, dwell: Array, which: Sequence[int] | np.ndarray, *, forced: bool) -> Array:
+    """Return the features of some slips as a model without effects predicts them [N]: alike where nothing shakes the box.
+
+    Args:
+        slips: the run's slips.
+        plain: the model.
+        dwell: time for which each slip's stick lasted [s].
+        which: the slips.
+        forced: whether the rig is excited, so that each slip is another one, predicted where it was measured; otherwise slips
+            begin where the model lets go, which may be far from where a rig with the effects did.
+
+    Returns:
+        Shape (len(which), N_FEATURES), or (N_FEATURES,) of what is not forced; nan where none slips.
+    """
+    if forced:
+        return predicted_features(slips, plain, dwell, which)
+    box = plain.mechanism(slips.record.stated)
+    away = (plain.law.mu_s * box.normal_force - box.damping * abs(box.belt_velocity)) / box.stiffness
+    return predicted_features(slips, plain, dwell, range(min(len(slips), BETWEEN)), away=away).mean(axis=0)
+
+
+def predicted_features(
+    slips: Slips, model: Model, dwell: Array, which: Sequence[int] | np.ndarray, *, away: float | None = None
+) -> Array:
+    """Return the features of some slips as the model predicts them [N], shape (n, N_FEATURES); nan where none slips.
+
+    Args:
+        slips: the run's slips.
+        model: the model.
+        dwell: time for which each slip's stick lasted [s].
+        which: the slips.
+        away: position at which the box breaks away [m]; None: where it was measured to.
+    """
     rows: list[Array] = []
+    typical = float(np.median(slips.onset_position)) if away is None else away
+    moved = typical - float(np.median(slips.onset_position))
     previous = np.r_[np.median(slips.restick_position), slips.restick_position[:-1]]
     belt = slips.record.mechanism.belt_velocity
     for i in which:
         # predicted from the last re-stick alone: the place of this break-away is what is to be predicted
-        typical = float(np.median(slips.onset_position))
         expected = slips.onset_time[i] + (typical - slips.onset_position[i]) / belt
-        stuck = (typical - previous[i]) / belt if i else float(dwell[i])
+        stuck = (typical - moved - previous[i]) / belt if i else float(dwell[i])
         case = Case(
             slips.record, (float(expected), typical, max(stuck, LEAST_DWELL / slips.record.angular_frequency)),
             float(np.median(slips.restick_time - slips.onset_time)), slips.features[i], ANY, slips.search,

@@ -26,6 +26,11 @@ NOT_FITTED = (
     "shape_exponent", "tail", "adhesion", "reference_temperature",
 )  # fmt: skip
 """Parameters of effects that forecasts cannot fit, or that are fixed by what they mean."""
+STRENGTHS = (
+    "amplitude", "coefficient", "distance", "cubic", "gap", "mass_ratio", "rate", "exponent", "asymmetry", "time_constant",
+    "quadratic", "change",
+)  # fmt: skip
+"""Parameters that measure how strong an effect is."""
 REACH = 0.25
 """How far a fit may move the coefficients, over mu_s [-]: further off, a forecast that never slips would look good."""
 MOST_FREED = 0.4

@@ -9,9 +9,8 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 
 from stochfric_mb.discovery.inference.fitter import loss, minimised
-from stochfric_mb.discovery.inference.free_parameter import LAW, MECHANISM, FreeParameter, steps_of
-from stochfric_mb.discovery.inference.threads import in_threads
-from stochfric_mb.discovery.stick_slip.records.record import CORRECTED, Array
+from stochfric_mb.discovery.inference.free_parameter import FreeParameter, steps_of
+from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.simulation.forecast import Windows, forecasts
 from stochfric_mb.discovery.stick_slip.simulation.model import Model, adjusted, free_parameters
 from stochfric_mb.discovery.stick_slip.simulation.natural_units import NaturalUnits
@@ -27,18 +26,17 @@ TYPICAL = 2.0
 """Errors up to this many units count by their square [-]."""
 CLIP = 0.5 / UNIT
 """Errors beyond this many units, half of what the box moves, count as this many: a missed slip says no more than that."""
+TELLING = 3.0
+"""Change that a difference has to make where what else the runs show counts, in standard deviations: features of a simulated
+slip jump by about one as samples fall on the other side of an edge, and forecasts do not."""
 DIFFERENCE = 0.01
 """Step of the derivatives in a fit, over a natural step of each number [-]."""
-LEAST_STEP, WIDEST = 1.0e-6, 30.0
-"""Shortest and widest step of the slopes that intervals come from, over a natural step of each number [-]."""
-ALIKE = 3.0
-"""Factor within which two slopes, or a change of the errors and one standard deviation, count as alike [-]."""
 STARTS = np.linspace(-3.0, 3.0, 13)
 """Where a forecast may begin, in standard deviations of what is known of its start [-]."""
 LIGHTER = 0.7
 """Share of what priors weighed in a fit, below which they weigh less where it ended for it to go on [-]."""
-MOST_STEPS = 10
-"""Steps that are tried for such a slope."""
+WIDEST = 30.0
+"""Standard deviation of a number that nothing tells, over its natural step [-]."""
 LEAST_CURVATURE = 1.0e-8
 """Smallest information on a combination of numbers, over that on single ones, that counts [-]."""
 INDEPENDENT = 6
@@ -60,8 +58,6 @@ class Fit:
     """Fitted values, shape (len(free),)."""
     deviations: Array
     """Their standard deviations, shape (len(free),)."""
-    alone: Array
-    """What they would be if the others were known, shape (len(free),)."""
     cost: float
     """Robust sum of squares of forecasts and priors at the end [-]."""
     objective: float = 0.0
@@ -71,10 +67,6 @@ class Fit:
     empty before `with_deviations`."""
     posterior: Array = dataclasses.field(default_factory=lambda: np.zeros(0))
     """Standard deviations by forecasts and prior together, each at its own weight, shape as `data_share`."""
-
-
-SHARE = 0.01
-"""Share by which all forces are larger where it is asked which numbers of an effect go along [-]."""
 
 
 def thinned(windows: Windows, most: int) -> Windows:
@@ -110,7 +102,7 @@ def refit(
         weigh: model whose forecasts tell how much an independent number of theirs errs, and so what else weighs; that where
             the fit starts if not given.
     """
-    misfit = _Misfit(model, windows, uncertainty, only, most)
+    misfit = Misfit(model, windows, uncertainty, only, most)
     misfit.beside(further, weigh or model)
     x = np.zeros(len(misfit.free))
     while True:
@@ -118,23 +110,21 @@ def refit(
         minimum = minimised(
             misfit.errors, x, misfit.steps.low, misfit.steps.high, difference=DIFFERENCE,
             evaluations=evaluations, tolerance=1.0e-4, outlying=misfit.outlying(typical), stride=misfit.steps.stride,
-            threads=True,
+            telling=0.0 if further is None else TELLING * weight, threads=True,
         )  # fmt: skip
         x = minimum.x
         if not misfit.believed(x) < LIGHTER * weight:
             break
     values = misfit.steps.values(minimum.x)
     spread = misfit.spread(2.0 * minimum.cost)
-    size = np.sqrt((minimum.jacobian**2).sum(axis=0))
-    alone = misfit.steps.scale * np.sqrt(spread) / np.maximum(size, np.sqrt(spread) / WIDEST)
-    deviations = misfit.steps.scale * _deviations(minimum.jacobian, spread)
+    deviations = misfit.steps.scale * left_open(minimum.jacobian, spread)
     cost = float(minimum.cost) if further is None else _robust(misfit.alone(minimum.x))
-    return Fit(adjusted(model, misfit.free, values), misfit.free, values, deviations, alone, cost, float(minimum.cost))
+    return Fit(adjusted(model, misfit.free, values), misfit.free, values, deviations, cost, float(minimum.cost))
 
 
 def cost_of(model: Model, windows: Sequence[Windows], *, most: int = MOST_WINDOWS) -> float:
     """Return the robust sum of squares that a model as it is leaves of forecasts [-]; compare with `Fit.cost`."""
-    misfit = _Misfit(model, windows, {}, (), most)
+    misfit = Misfit(model, windows, {}, (), most)
     return _robust(misfit.errors(np.zeros(0)))
 
 
@@ -155,146 +145,9 @@ def likelihood_ratios(models: Sequence[Model], windows: Sequence[Windows]) -> Ar
     begins where it is least wrong, as far as noise lets the start be off: a wave to which slips keep knows when the box breaks
     away whatever the start, and would be better by that alone.
     """
-    misfits = [_Misfit(m, windows, {}, (), max(map(len, windows))) for m in models]
+    misfits = [Misfit(m, windows, {}, (), max(map(len, windows))) for m in models]
     costs = np.array([sum(float(m.least(w).sum()) for w in m.windows) for m in misfits])
     return 2.0 * (costs - costs.min()) / misfits[0].spread(2.0 * float(costs.min()))
-
-
-def with_deviations(
-    fit: Fit,
-    windows: Sequence[Windows],
-    uncertainty: Mapping[str, float],
-    *,
-    most: int = MOST_WINDOWS,
-    further: Further | None = None,
-) -> Fit:
-    """Return the fit with standard deviations from differences as wide as what the forecasts leave open.
-
-    A fit's own differences are small. Where errors jump as a number is changed, a slip missed or a gap's edge passed, or do
-    not change at all until it is changed by more, their slopes say nothing of how far off the number may be.
-
-    Args:
-        fit: a fit of all free parameters.
-        windows: the forecasts it was made to.
-        uncertainty: relative standard deviations of the stated numbers.
-        most: forecasts used in each run.
-        further: errors of what else the runs show, as in the fit.
-    """
-    misfit = _Misfit(fit.model, windows, uncertainty, None, most)
-    misfit.beside(further, fit.model)
-    here = misfit.errors(np.zeros(len(misfit.free)))
-    weight = (1.0 + (here / TYPICAL) ** 2) ** -0.75  # of the loss: SciPy scales its Jacobian so
-    spread = misfit.spread(2.0 * fit.cost)
-    alone = {(k.name, k.owner, k.run): a for k, a in zip(fit.free, fit.alone, strict=True)}
-
-    def slope(j: int) -> Array:
-        one = misfit.free[j]
-        first = alone[one.name, one.owner, one.run] / one.scale
-
-        def change(step: float) -> Array:
-            at = np.zeros(len(misfit.free))
-            at[j] = step
-            return weight * (misfit.errors(at) - here) / np.sqrt(spread)
-
-        sides = [
-            sign * _slope(lambda h, sign=sign: change(sign * h), first, min(WIDEST, sign * float(bound)))
-            for sign, bound in ((-1.0, misfit.steps.low[j]), (1.0, misfit.steps.high[j]))
-        ]
-        down, up = (float(np.linalg.norm(side)) for side in sides)
-        if min(down, up) == 0.0:  # a bound, or nothing to be seen there
-            return sides[0] + sides[1]
-        if max(down, up) > ALIKE * min(down, up):
-            # a jump on one side says nothing of the other
-            return sides[0] if down < up else sides[1]
-        return 0.5 * (sides[0] + sides[1])
-
-    slopes = np.stack(in_threads(slope, range(len(misfit.free))), axis=1)
-    steps, rows = misfit.steps, len(here) - len(misfit.free)
-    data = _blind_to_scale(slopes[:rows], misfit)
-    believed = misfit.priors @ np.diag(steps.scale / steps.prior)
-    data_share, posterior = _with_priors(data, steps.scale / steps.prior)
-    return dataclasses.replace(
-        fit, free=misfit.free, values=steps.start, deviations=steps.scale * _deviations(np.r_[data, believed], 1.0),
-        data_share=data_share, posterior=steps.scale * posterior,
-    )  # fmt: skip
-
-
-def _blind_to_scale(slopes: Array, misfit: _Misfit) -> Array:
-    """Return slopes that tell nothing of the scale of all forces, shape (n, p): no motion shows it, and differences err.
-
-    A rig with stiffness, mass, damping and friction larger by one share moves as it did, where the numbers of effects that are
-    forces or coefficients are as well. Of each number as large a share of its slope is taken away as brings that about.
-
-    Args:
-        slopes: of the forecasts, in their standard deviations over natural steps, shape (n, p).
-        misfit: the forecasts' errors.
-    """
-    free, steps = misfit.free, misfit.steps
-    if not {*CORRECTED, "mu_s", "mu_k"} <= {k.name for k in free if k.owner in (LAW, MECHANISM)}:
-        return slopes  # one that is exact says how large all are
-    here = misfit.errors(np.zeros(len(free)))[: len(slopes)]
-
-    def away(along: Array) -> float:
-        return float(np.linalg.norm(misfit.errors(SHARE * along)[: len(slopes)] - here))
-
-    rig = np.array([k.owner in (LAW, MECHANISM) for k in free])
-    sizes = (np.array([k.name in CORRECTED and k.owner == MECHANISM for k in free]) + steps.start) / steps.scale
-    along = np.where(rig, sizes, 0.0)
-    least = away(along)
-    asked = ~rig & (sizes != 0.0) & np.array([not k.run for k in free])  # a phase of a run is no force
-    for j in np.flatnonzero(asked):  # which numbers have to go along, the motion says
-        with_ = along + np.where(np.arange(len(free)) == j, sizes, 0.0)
-        if (left := away(with_)) < least:
-            along, least = with_, left
-    weight = np.sum(slopes**2, axis=0) * along
-    total = float(weight @ along)
-    return np.asarray(slopes - np.outer(slopes @ along, weight / max(total, 1.0e-300)), dtype=np.float64)
-
-
-def _with_priors(slopes: Array, prior: Array) -> tuple[Array, Array]:
-    """Return what data tell of each number, over all that is known of it, and its standard deviation [natural steps].
-
-    Args:
-        slopes: of the data, in their standard deviations over natural steps, shape (n, p).
-        prior: natural steps over prior standard deviations, 0 where there is no prior, shape (p,).
-    """
-    information = slopes.T @ slopes + np.diag(prior**2)
-    least = np.diag(np.full(len(prior), WIDEST**-2.0))  # what nothing tells is left open, not singular
-    variance = np.array(np.diag(np.linalg.inv(information + least)), dtype=np.float64)
-    data_share = 1.0 - np.clip(variance * np.maximum(prior**2, WIDEST**-2.0), 0.0, 1.0)
-    return data_share, np.sqrt(variance)
-
-
-def _slope(change: Callable[[float], Array], first: float, most: float) -> Array:
-    """Return the slope of errors, in standard deviations, over the step at which their change counts about one.
-
-    Args:
-        change: change of the errors over a step, shape (n,).
-        first: step to begin with.
-        most: widest step.
-    """
-    if most <= LEAST_STEP:
-        return np.zeros_like(change(0.0))
-    below, above = 0.0, most
-    step = float(np.clip(first, LEAST_STEP, most))
-    moved = change(step)
-    for _ in range(MOST_STEPS):
-        size = float(np.linalg.norm(moved))
-        if 1.0 / ALIKE <= size <= ALIKE or (size < 1.0 and step >= most):
-            break
-        if size < 1.0:
-            below = step
-        else:
-            above = step
-        guess = step / size if size > 0.0 else most
-        if below < guess < above or (guess >= most and above == most):
-            step = min(guess, most)
-        else:
-            step = float(np.sqrt(max(below, LEAST_STEP) * above))
-        moved = change(step)
-    # where errors jump the number can be off no farther than the step, but no nearer is it known
-    size = float(np.linalg.norm(moved))
-    return moved / (step * (size if size > ALIKE else 1.0))
 
 
 def _together(free: Sequence[FreeParameter], effects: Sequence[Effect]) -> Array:
@@ -308,7 +161,7 @@ def _together(free: Sequence[FreeParameter], effects: Sequence[Effect]) -> Array
     return whitening
 
 
-class _Misfit:
+class Misfit:
     """What forecasts miss, over the free parameters of a model in their natural steps, all 0 at the start."""
 
     def __init__(
@@ -395,7 +248,7 @@ class _Misfit:
         return max(squares / max(count, 1), 1.0e-12) * inflation
 
 
-def _deviations(slopes: Array, spread: float) -> Array:
+def left_open(slopes: Array, spread: float) -> Array:
     """Return the standard deviations that slopes leave; a direction that they do not show is left open, not called certain."""
     size = np.sqrt((slopes**2).sum(axis=0))
     seen = size > 0.0

@@ -10,8 +10,9 @@ import dataclasses
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.stick_slip.decision.decision import Named, term_of
 from stochfric_mb.discovery.stick_slip.screening.smooth_term import axes_of, smooth_term
+from stochfric_mb.discovery.stick_slip.simulation.deviations import with_deviations
 from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import HeldOut
-from stochfric_mb.discovery.stick_slip.simulation.refit import Fit, refit, with_deviations
+from stochfric_mb.discovery.stick_slip.simulation.refit import Fit, refit
 from stochfric_mb.discovery.stick_slip.study import Study
 from stochfric_mb.discovery.stick_slip.validation.held_out_check import Comparison, compared
 from stochfric_mb.errors import SimulationError

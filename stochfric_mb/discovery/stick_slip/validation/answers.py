@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
 from typing import cast
 
 import numpy as np
@@ -15,6 +16,7 @@ from stochfric_mb.discovery.stick_slip.decision.random_effects import kicked
 from stochfric_mb.discovery.stick_slip.decision.rounds import of_wander
 from stochfric_mb.discovery.stick_slip.records.record import CORRECTED
 from stochfric_mb.discovery.stick_slip.screening.folding import comes_back
+from stochfric_mb.discovery.stick_slip.simulation.deviations import with_deviations
 from stochfric_mb.discovery.stick_slip.simulation.forecast import score
 from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import (
     HeldOut,
@@ -24,10 +26,9 @@ from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import (
     mean_score,
     settled,
 )
-from stochfric_mb.discovery.stick_slip.simulation.model import Model
-from stochfric_mb.discovery.stick_slip.simulation.refit import Fit, likelihood_ratios, refit, with_deviations
+from stochfric_mb.discovery.stick_slip.simulation.model import STRENGTHS, Model
+from stochfric_mb.discovery.stick_slip.simulation.refit import Fit, likelihood_ratios, refit
 from stochfric_mb.discovery.stick_slip.simulation.scatter import matched
-from stochfric_mb.discovery.stick_slip.simulation.strength import decided_by_ratio, undecided
 from stochfric_mb.discovery.stick_slip.study import Study
 from stochfric_mb.discovery.stick_slip.validation.explained import (
     explained_with_its_form,
@@ -39,6 +40,7 @@ from stochfric_mb.discovery.stick_slip.validation.explained import (
 from stochfric_mb.discovery.stick_slip.validation.feature_skill import Gaps, slip_force_gap
 from stochfric_mb.discovery.stick_slip.validation.held_out_check import Comparison, compared
 from stochfric_mb.discovery.stick_slip.validation.predictive_check import VARYING, inadequate
+from stochfric_mb.discovery.stick_slip.validation.strength import decided_by_ratio, undecided
 from stochfric_mb.effects import kind_with_signature, kinds_with
 from stochfric_mb.effects.traits import SCATTER, WANDER, YIELDING
 
@@ -256,12 +258,12 @@ def _less_refused(
 
 
 def _with_form(answer: Answer, term: str, slip_study: Study, recalibrated: Fit, runs: HeldOut) -> Answer:
-    """Return the answer without the term for what its effect's form leaves, unless held-out forecasts are better with it."""
+    """Return the answer without the term for what its effect's form leaves, unless that matters to held-out forecasts."""
     decision = dataclasses.replace(answer.decision, model=answer.decision.model.without_last(term), form=None)
     plain = explaining(fitted(decision, slip_study, recalibrated), slip_study, recalibrated)
     plain = dataclasses.replace(plain, model=settled(plain.model, runs))
     seen = compared(plain.model, answer.model, runs)
-    return answer if seen is not None and seen.better else plain
+    return answer if seen is not None and seen.better and not seen.idle else plain
 
 
 def _refuted_by_forces(seen: Comparison, last: Named, fewer: Answer, answer: Answer, slip_study: Study, runs: HeldOut) -> bool:
@@ -271,15 +273,14 @@ def _refuted_by_forces(seen: Comparison, last: Named, fewer: Answer, answer: Ans
     """
     if last.kind in kinds_with(SCATTER):
         return False
-    idle = seen.without - seen.with_ <= criteria.CLOSES_NOTHING * seen.without
     if any(e.group == "sensor" for e in answer.model.effects):
-        return idle and bool(fewer.decision.named)  # predicted forces do not hold what a sensor adds
+        return seen.idle and bool(fewer.decision.named)  # predicted forces do not hold what a sensor adds
     forces = slip_force_gap(slip_study.model, fewer.model, answer.model, runs.slips)
     if forces is None:
         return False
     nothing = criteria.CLOSES_NOTHING * forces.recalibrated
     worse = forces.augmented - forces.recalibrated > nothing and not _by_its_motion(last.kind, answer.decision)
-    return worse or (idle and forces.recalibrated - forces.augmented < nothing)
+    return worse or (seen.idle and forces.recalibrated - forces.augmented < nothing)
 
 
 def _by_its_motion(kind: str, decision: Decision) -> bool:
@@ -314,8 +315,19 @@ def _with_strengths(answer: Answer, slip_study: Study, recalibrated: Fit) -> Ans
         evidence = max(ratio, named[kind].evidence.score or 0.0)
         answer.decision.details.setdefault("strengths", {})[kind] = ratio  # pyright: ignore[reportIndexIssue, reportAttributeAccessIssue]
         if evidence >= criteria.STRENGTH_DECIDED:
-            fit = decided_by_ratio(fit, answer.model, kind, evidence)
+            fit = decided_by_ratio(fit, answer.model, kind, evidence, functools.partial(_held_at, fit, kind, slip_study))
     return dataclasses.replace(answer, fit=fit)
+
+
+def _held_at(fit: Fit, kind: str, slip_study: Study, strength: float) -> float:
+    """Return twice the log likelihood ratio of a fit to the same with a kind's only strength held at a value [-]."""
+    model = deterministic(fit.model)
+    (name,) = (k.name for k in fit.free if k.owner >= 0 and k.name in STRENGTHS and model.effects[k.owner].kind == kind)
+    effects = tuple(e.changed(**{name: strength}) if e.kind == kind else e for e in model.effects)
+    held = dataclasses.replace(model, effects=effects, measured={**model.measured, name: 0.0})
+    other = refit(held, slip_study.windows, slip_study.uncertainty, evaluations=25)
+    without, with_ = likelihood_ratios([other.model, fit.model], slip_study.windows)
+    return float(without - with_)
 
 
 def _without_last(answer: Answer, slip_study: Study, recalibrated: Fit, runs: HeldOut) -> Answer:

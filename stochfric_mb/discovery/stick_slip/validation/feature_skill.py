@@ -13,7 +13,7 @@ import numpy as np
 
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.result import Gap, Leading
-from stochfric_mb.discovery.stick_slip.decision.innovations import BETWEEN, predicted_features
+from stochfric_mb.discovery.stick_slip.decision.innovations import plain_features, predicted_features
 from stochfric_mb.discovery.stick_slip.records.calibration import Calibration, calibrate
 from stochfric_mb.discovery.stick_slip.records.pool import make_pool
 from stochfric_mb.discovery.stick_slip.records.record import Array
@@ -105,9 +105,9 @@ def _expected(model: Model, slips: Slips, dwell: Array, rows: np.ndarray) -> Arr
     calm = deterministic(model)
     bare = model.bare(slips.record)
     forced = slips.record.mechanism.excitation_amplitude != 0.0
-    added = predicted_features(slips, bare, dwell, rows if forced else range(min(len(slips), BETWEEN)))
+    added = plain_features(slips, bare, dwell, rows, forced=forced)
     truth = slips.record.mechanism.normal_force * np.r_[model.law.mu_s, model.law.mu_k, np.zeros(N_FEATURES - 2)]
-    return predicted_features(slips, calm, dwell, rows) - ((added if forced else added.mean(axis=0)) - truth)
+    return predicted_features(slips, calm, dwell, rows) - (added - truth)
 
 
 def _scatter(model: Model, slips: Slips) -> Array:

@@ -48,6 +48,11 @@ class Comparison:
         """Whether the effect makes the forecasts better, by more than chance."""
         return self.without - self.with_ > criteria.HELD_OUT_DOUBT * self.deviation
 
+    @property
+    def idle(self) -> bool:
+        """Whether it takes away next to nothing of what they are off, however surely."""
+        return self.without - self.with_ <= criteria.CLOSES_NOTHING * self.without
+
 
 def compared(without: Model, with_: Model, runs: HeldOut) -> Comparison | None:
     """Return how two models, phases estimated already, forecast held-out runs; None where there are too few forecasts."""
