@@ -68,21 +68,19 @@ def fitted(decision: Decision, slip_study: Study, recalibrated: Fit) -> Answer:
 def _fit(decision: Decision, slip_study: Study, recalibrated: Fit) -> Fit:
     model = decision.model
     calm = deterministic(model)
-    if not calm.effects:
-        return _joined(model, recalibrated, slip_study)
     windows, uncertainty = slip_study.windows, slip_study.uncertainty
     further = None if decision.seen is None else decision.seen.of(calm)
+    if not calm.effects:
+        # forecasts follow the draws of the slips that they begin before; the slips, all of them, tell the mean
+        fit = refit(calm, windows, uncertainty, evaluations=0) if model.random else recalibrated
+        return _joined(model, with_deviations(fit, windows, uncertainty), slip_study)
     starts = (calm, dataclasses.replace(calm, law=recalibrated.model.law, corrections=recalibrated.model.corrections))
     fits = [refit(m, windows, uncertainty, evaluations=25, further=further, weigh=calm) for m in starts]
     fit = min(fits, key=lambda f: f.objective)
-    if model.process is not None:
-        # a fit to single draws of a scatter follows the draws: the estimate from the slips stands where it forecasts better
-        unmoved = refit(calm, slip_study.windows, slip_study.uncertainty, evaluations=0)
-        fit = min(
-            fit,
-            unmoved,
-            key=lambda f: sum(float(score(_joined(model, f, slip_study).model, w).sum()) for w in slip_study.windows),
-        )
+    if model.random:
+        # of a scatter beside effects, too, where it forecasts better
+        unmoved = refit(calm, windows, uncertainty, evaluations=0)
+        fit = min(fit, unmoved, key=lambda f: sum(float(score(_joined(model, f, slip_study).model, w).sum()) for w in windows))
     return _joined(model, with_deviations(fit, windows, uncertainty, further=further), slip_study)
 
 
