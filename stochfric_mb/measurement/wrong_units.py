@@ -60,6 +60,8 @@ POWERS_ABOUT: dict[str, tuple[float, float]] = {
 """The same at a hinge, whose inertia is m l^2 and some of its own."""
 PAGE = 'docs/datasets.md, "A rig that turns"'
 """Where arcs are explained."""
+ROUGHLY = 3.0
+"""Factor within which a motion fits the stated friction and stiffness, once a unit is corrected [-]."""
 HALF_WIDTH = 8
 """Half the length of the window over which a position changes [samples]."""
 
@@ -292,6 +294,11 @@ def _wrong_unit(run: Run, box: BeltBox, seen: Shown, cause: Cause, stated_in: st
         really = _unit_of(sizes, sizes.get(label, 1.0) / cause.factor)
         remedy = f"write its header as '{cause.name} [{really}]', or give units = {{ {cause.name} = \"{really}\" }}"
         place = f"{run.source}: column {cause.name} [{label}]"
+        if really == label:  # no unit has this size
+            return (
+                f"{place} is {_times(cause.factor)} what fits: {_evidence(seen)}. The factor of a sensor may be missing, such "
+                f"as scale = {{ {cause.name} = {1.0 / cause.factor:.4g} }}; or its header or another number is wrong"
+            )
         if cause.name == "position" and cause.factor == IN_DEGREES:
             really = "deg"
             remedy = f"{ALONG_AN_ARC}: multiply scale.position by pi / 180 ({PAGE})"
@@ -303,7 +310,14 @@ def _wrong_unit(run: Run, box: BeltBox, seen: Shown, cause: Cause, stated_in: st
         remedy = f"write {cause.name} = {value / cause.factor:.6g} ({si})"
         seen_in = "" if cause.name in run.settings else f" (run {run.name})"
         place = f"{_stated_as(run, cause.name, stated_in)} = {value:g} {si}{seen_in}"
-    return f"{place} is {_times(cause.factor)} what fits: {_evidence(seen)}. It is probably in {really}; {remedy}"
+    left = 10.0 ** (seen.length - cause.length * math.log10(cause.factor))
+    more = (
+        f". Positions would still range over {left:.3g} times mu_s N/k: more than one number may be wrong, such as inertia and "
+        f"stiffness of a rig that turns, each over the radius squared ({PAGE})"
+        if not 1.0 / ROUGHLY < left < ROUGHLY
+        else ""
+    )
+    return f"{place} is {_times(cause.factor)} what fits: {_evidence(seen)}. It is probably in {really}; {remedy}{more}"
 
 
 def _evidence(seen: Shown) -> str:

@@ -201,6 +201,15 @@ def test_the_reason_and_the_next_experiment_are_those_of_the_record(record, monk
     assert advice in result.next_experiment
 
 
+def test_a_record_that_is_turned_round_is_refused_though_it_seems_to_slide_all_the_time():
+    turned = replace(
+        plain(),
+        runs=tuple(replace(r, channels={**r.channels, "position": -r.channels["position"]}) for r in plain().runs),
+    )
+    with pytest.raises(InputError, match=r"against the belt's motion; .*sign = \{ position = -1 \}"):
+        discover(turned)
+
+
 def test_without_stated_uncertainties_small_errors_of_the_rig_are_no_effect():
     # its true mass, stiffness and damping are off by their usual errors
     dataset = plain()

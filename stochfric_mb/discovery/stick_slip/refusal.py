@@ -8,6 +8,7 @@ import numpy as np
 
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.result import Where
+from stochfric_mb.discovery.stick_slip.records.preconditions import against_belt
 from stochfric_mb.discovery.stick_slip.records.record import Record
 from stochfric_mb.discovery.stick_slip.records.slips import extract
 from stochfric_mb.discovery.stick_slip.study import record_of
@@ -17,7 +18,11 @@ from stochfric_mb.scenario import Scenario
 
 
 def refusal(dataset: Dataset) -> tuple[Where, str]:
-    """Return why no fit run can be judged, run by run, and the experiment that could be."""
+    """Return why no fit run can be judged, run by run, and the experiment that could be.
+
+    Raises:
+        InputError: a run that is turned round.
+    """
     reasons, needs = list[str](), list[str]()
     for run in dataset.fit:
         reason, need = _of(record_of(run, dataset), dataset.scenario)
@@ -58,6 +63,8 @@ def _of(record: Record, scenario: Scenario) -> tuple[str, str]:
         )
     if result == 0 and followed < criteria.SLIDES:
         level = float(np.mean(record.position)) * box.stiffness / box.normal_force
+        if level < 0.0:  # a box that slips the other way looks as if it never stuck
+            raise against_belt(record.name, "on average", level)
         return (
             f"slides for all its {seconds:.3g} s (mean spring force over normal force {level:.3g})",
             f"a belt slower than {box.belt_velocity:.3g} m/s, or a softer spring, so that the box sticks between slips",

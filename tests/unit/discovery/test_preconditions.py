@@ -31,12 +31,18 @@ def test_coarse_samples_and_a_belt_at_rest_are_refused(interval, belt, said):
         require_usable(experiment(interval, belt))
 
 
+def test_a_time_in_milliseconds_that_is_read_as_seconds_is_asked_for():
+    with pytest.raises(InputError, match=r'units = \{ time = "ms" \}'):
+        require_usable(experiment(1.0, 2e-3))
+
+
 @pytest.mark.parametrize(
     ("onset", "kinetic", "remedy"),
     [
         (-8.0, -5.0, "same positive direction"),
         (8.0, -0.1, "same positive direction"),
         (470.0, 465.0, "36.2 times the normal force, with mu_s stated as 0.45; count the position from where the spring is"),
+        (0.02 * 13.0, 0.01 * 13.0, "0.02 times the normal force, with mu_s stated as 0.45: correct normal_force"),
         (13.0 * 9.81 * 0.45, 40.0, "normal_force = 13 N is probably a mass in kg; write normal_force = 127.5"),
     ],
 )

@@ -63,6 +63,23 @@ def test_a_position_in_another_unit_than_its_label(tmp_path, motion, truth, unit
     assert f"write its header as 'position [{really}]'" in text
 
 
+def test_a_sensor_s_factor_that_was_forgotten_is_no_unit(tmp_path, motion, truth):
+    """It happens to be that of inches to m, and the header says m: what stands there is not the remedy."""
+    with pytest.raises(
+        InputError, match=r"1/25\.4 of what fits.*factor of a sensor may be missing, such as scale = "
+    ) as caught:
+        _load(tmp_path, motion, truth, scale=1.0 / 25.4)
+    assert "write its header" not in str(caught.value)
+
+
+def test_a_torsion_rig_by_inertia_and_torsion_stiffness_is_more_than_a_unit(tmp_path, motion, truth):
+    """What is left once the best unit is corrected is a factor of 7: no unit, and the page on rigs that turn is named."""
+    box = truth.mechanism
+    stated = _stated(truth, mass=box.mass / 150.0, stiffness=box.stiffness / 150.0, damping=box.damping / 150.0)
+    with pytest.raises(InputError, match=r"still range over 6\.\d+ times mu_s N/k: .*A rig that turns"):
+        _load(tmp_path, motion, stated)
+
+
 def test_an_arc_of_degrees_is_told_from_inches(tmp_path, motion, truth):
     with pytest.raises(
         InputError, match=r"57\.3 times what fits.* probably in deg; what turns .*multiply scale.position by pi / 180"

@@ -34,8 +34,26 @@ def require_usable(dataset: Dataset) -> None:
                 f"run {run.name}: {1.0 / run.sample_interval:.4g} samples a second are {count:.3g} in a period of the natural "
                 f"oscillation ({natural:.3g} Hz by the stated mass and stiffness); at least "
                 f"{criteria.FEWEST_SAMPLES} are needed: sample at {math.ceil(criteria.FEWEST_SAMPLES * natural)} Hz or faster, "
-                "or correct mass and stiffness"
+                f"or correct mass and stiffness{_in_milliseconds(run.sample_interval, count)}"
             )
+
+
+def _in_milliseconds(interval: float, count: float) -> str:
+    """Return what to write if the time is in ms, where that would do; samples more than half a second apart are rare."""
+    return (
+        ', or give the unit of time, units = { time = "ms" }'
+        if interval > 0.5 and 1e3 * count > criteria.FEWEST_SAMPLES
+        else ""
+    )
+
+
+def against_belt(run: str, when: str, share: float) -> InputError:
+    """Return the error of a run whose friction acts against the belt's motion, at ``share`` of the normal force [-]."""
+    return InputError(
+        f"run {run}: friction {when} comes out at {share:.3g} times the normal force, against the belt's motion; give position "
+        "and belt_velocity the same positive direction (sign = { position = -1 } turns a column round) and count the position "
+        "from the unstressed spring"
+    )
 
 
 def require_driven(slips: Sequence[Slips], mu_s: float) -> None:
@@ -46,17 +64,19 @@ def require_driven(slips: Sequence[Slips], mu_s: float) -> None:
         mu_s: static coefficient as stated [-].
 
     Raises:
-        InputError: a run whose spring pulls along the belt's motion at break-away or in slip, or pulls too hard.
+        InputError: a run whose spring pulls along the belt's motion at break-away or in slip, or pulls too hard or too little.
     """
     for one in slips:
         load = one.record.mechanism.normal_force
         for forces, when in ((one.onset_force, "at break-away"), (one.moments[:, 0], "in slip")):
             share = float(np.median(forces)) / load
             if share <= 0.0:
+                raise against_belt(one.record.name, when, share)
+            if share < mu_s / criteria.FAR_OFF:
                 raise InputError(
-                    f"run {one.record.name}: friction {when} comes out at {share:.3g} times the normal force, against the "
-                    "belt's motion; give position and belt_velocity the same positive direction (sign = { position = -1 } "
-                    "turns a column round) and count the position from the unstressed spring"
+                    f"run {one.record.name}: friction {when} comes out at {share:.3g} times the normal force, with mu_s stated "
+                    f"as {mu_s:.3g}: correct normal_force = {load:.6g} N, or stiffness, or the unit of the position; so small "
+                    "a mu_s has to be stated"
                 )
             if share > criteria.MOST_FRICTION * max(1.0, mu_s):
                 zero = "count the position from where the spring is unstressed, or correct normal_force"
