@@ -54,7 +54,11 @@ def _to_find(axis: str, study: Study) -> str:
         return "a load test of the spring and a weighing of the box: with them as stated, what is missing has no name"
     measured = any(FORCE in run.channels for run in study.dataset.fit)
     wanted = _untried(study) if measured else ["a force sensor", *_untried(study)]
-    aim = "in which part of the cycle the model errs" if axis == FORECASTS else f"what varies along: {axis}"
+    aim = (
+        "in which part of the cycle the model errs"
+        if axis == FORECASTS
+        else f"whether what is missing ({axis}) changes with them"
+    )
     return f"a repeat with {' and '.join(wanted)}, to see {aim}"
 
 

@@ -16,8 +16,8 @@ from stochfric_mb.discovery.stick_slip.simulation.prior_model import NOT_STATED
 from stochfric_mb.discovery.stick_slip.study import Study
 from stochfric_mb.discovery.stick_slip.validation.explained import MORE_MISSING
 from stochfric_mb.discovery.stick_slip.validation.feature_skill import Gaps
-from stochfric_mb.effects import effect_class
-from stochfric_mb.effects.traits import BELT
+from stochfric_mb.effects import effect_class, kind_with_signature
+from stochfric_mb.effects.traits import BELT, CLIPPED, CREEPING_ZERO, YIELDING
 from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.measurement.scales import load_in_kilograms
 
@@ -37,8 +37,9 @@ def notes(study: Study, decision: Decision, model: Model, gaps: Gaps, given: Dat
     """
     details: dict[str, Any] = decision.details
     beyond = details["parameters"]["moved_beyond_uncertainty"]
+    seen = {kind_with_signature(s) for s in (CLIPPED, CREEPING_ZERO, YIELDING)}  # while the box sticks
     return (
-        *of_the_record(study, varies=any(BELT in effect_class(n.kind).traits for n in decision.named)),
+        *of_the_record(study, varies=any(n.kind in seen or BELT in effect_class(n.kind).traits for n in decision.named)),
         *(
             f"{kind} is not validated on the held-out runs: error {seen['with_']:.3g} m with it, "
             f"{seen['without']:.3g} m without"
@@ -111,7 +112,8 @@ def of_the_record(study: Study, *, varies: bool = False) -> list[str]:
 
     Args:
         study: what the fit runs show.
-        varies: whether the belt's speed is known to vary: slips that keep step with it do not stick at its mean.
+        varies: whether the belt's speed is known to vary, or the reading not to follow the stuck box: slips that keep step
+            with a belt do not stick at its mean, and a reading that clips or drifts is no measure of it.
     """
     used = {slips.record.name for slips in study.pool.slips}
     said = [
@@ -152,7 +154,7 @@ def _left_in_forces(forces: Gap | None) -> list[str]:
         return []
     return [
         f"the forces of held-out slips are off by {forces.augmented:.3g} times their noise with what is named, "
-        f"{forces.floor:.3g} if the model were true: more is missing, and intervals may be too narrow"
+        f"{forces.floor:.3g} if the model were true: more is missing, or a number is farther off than its interval says"
     ]
 
 

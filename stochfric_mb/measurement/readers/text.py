@@ -271,5 +271,10 @@ def _slow_values(path: Path, body: list[tuple[int, str]], width: int, dialect: D
         values[:, j] -= values[0, j]
     for j, (number, field) in words.items():
         if np.isfinite(values[:, j]).any():
-            raise InputError(f"{path}, line {number}, column {j + 1}: {field!r} is not a number; remove or correct the line")
+            row = next(i for i, (n, _) in enumerate(body) if n == number)
+            only = not np.isfinite(values[row]).any()  # words alone, such as names below a preamble
+            names = f", or give skip_rows = {number - 1} if the names of the columns stand in it" if only else ""
+            raise InputError(
+                f"{path}, line {number}, column {j + 1}: {field!r} is not a number; remove or correct the line{names}"
+            )
     return values
