@@ -83,14 +83,33 @@ def _picture(tracks: Sequence[Track], models: Mapping[str, Fitted]) -> Picture:
 
 def _fits(tracks: Sequence[Track], dataset: Dataset, progress: Callable[[str], None]) -> list[Fitted]:
     """Return the fit of each law, constant friction first."""
-    reference = float(np.median(tracks[0].speed))
-    shortest = 2.0 * min(float(np.median(t.speed)) * t.run.sample_interval for t in tracks)
+    reference, shortest = float(np.median(tracks[0].speed)), _shortest(tracks)
     fits: list[Fitted] = []
     for law in laws(reference, dataset.scenario.mechanism.stiffness, dataset.scenario.law.mu_k, shortest, _way(tracks)):
         progress(law.kind or "constant friction")
         alike = next((f for f in fits if f.law.variant == "" and f.law.names == law.names), None)
         fits.append(fit(law, tracks, law.starts if alike is None else [alike.values]))
     return fits
+
+
+def _shortest(tracks: Sequence[Track]) -> float:
+    """Return the displacement of the load point in two samples [m]: friction that follows in less is not seen to follow."""
+    return 2.0 * min(float(np.median(t.speed)) * t.run.sample_interval for t in tracks)
+
+
+def _as_stated(dataset: Dataset, tracks: Sequence[Track]) -> list[str]:
+    """Return what of the stated stiffness cannot be, by how far the load point moves: often a unit is wrong."""
+    stiffness, mu = dataset.scenario.mechanism.stiffness, dataset.scenario.law.mu_k
+    units = "check the unit of the position and the stiffness, which is k over the normal force, in 1/m"
+    soon, late = stiffness * _shortest(tracks), stiffness * _way(tracks)
+    if soon > mu:
+        return [f"with the stated stiffness of {stiffness:.4g} 1/m friction would change by {soon:.3g} in two samples: {units}"]
+    if late < mu:
+        return [
+            f"with the stated stiffness of {stiffness:.4g} 1/m friction would change by {late:.3g} over all the "
+            f"{_way(tracks):.3g} m that the load point moves, where it is {mu:.3g}: the block would hardly begin to slide; {units}"
+        ]
+    return []
 
 
 def _way(tracks: Sequence[Track]) -> float:
@@ -212,6 +231,7 @@ def _result(
             *gap.notes,
             *unnamed.values(),
             *([] if not effects else _doubts(closest, gap)),
+            *_as_stated(dataset, tracks),
             "the load point's speed is taken through a window; the machine's stiffness is fitted",
         ),
         unnamed=_unnamed(kept) if kept is not None else None,

@@ -7,7 +7,7 @@ import pytest
 
 from stochfric_mb.discovery.driven_joint.simulation.pictures import step_picture
 from stochfric_mb.discovery.velocity_step.laws import Track, laws, memory_start
-from stochfric_mb.discovery.velocity_step.velocity_steps import spring_slider_outcome, track_of
+from stochfric_mb.discovery.velocity_step.velocity_steps import _as_stated, spring_slider_outcome, track_of
 from stochfric_mb.errors import InputError
 from tests.discovery.net.joints import slider
 
@@ -194,6 +194,18 @@ def test_friction_that_is_no_coefficient_is_refused(factor, remedy):
     with pytest.raises(InputError, match="times the normal force") as error:
         track_of(wrong, data)
     assert remedy in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("factor", "said"), [(1.0, ""), (1.0e6, "in two samples: check the unit"), (1.0e-3, "hardly begin to slide")]
+)
+def test_a_position_in_another_unit_than_the_stiffness_is_asked_about(factor, said):
+    data = slider(0.01, 0.015, 2)
+    runs = tuple(
+        dataclasses.replace(run, channels={**run.channels, "position": factor * run.channels["position"]}) for run in data.runs
+    )
+    tracks = [track_of(run, data) for run in runs]
+    assert [said in note for note in _as_stated(data, tracks)] == ([True] if said else [])
 
 
 def test_what_comes_back_along_the_way_is_a_course_of_it():
