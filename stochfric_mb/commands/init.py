@@ -49,6 +49,8 @@ NEEDED: dict[str, tuple[tuple[str, ...], ...]] = {
     "mjcf": (("position",),),
 }
 """Mechanism -> quantities without which it cannot be discovered, each with those that do as well."""
+HEADERS = {"position": "position [mm]", "force": "force [N]", "torque": "torque [N m]"}
+"""Quantity -> its column in the header of an example."""
 UNCERTAINTY: dict[str, dict[str, float]] = {
     "belt_box": {"mass": 0.01, "stiffness": 0.02, "damping": 0.5, "normal_force": 0.05, "mu_s": 0.3, "mu_k": 0.3},
     "prismatic_joint": {"mass": 0.1, "mu_s": 0.5, "mu_k": 0.5},
@@ -73,7 +75,7 @@ def init(mechanism: str, measured: str | None, out: str, force: bool) -> None:
     from stochfric_mb.outputs import check_target, whole_folder
 
     target = check_target(out, force=force, marker=MARKER)
-    runs, said = _runs(mechanism, Path(measured), target) if measured else (_placeholder(), [])
+    runs, said = _runs(mechanism, Path(measured), target) if measured else (_placeholder(mechanism), [])
     with whole_folder(target, replace=force) as folder:
         (folder / "scenario.toml").write_text(scenario_text(mechanism), encoding="utf-8")
         (folder / "dataset.toml").write_text(dataset_text(runs), encoding="utf-8")
@@ -121,9 +123,11 @@ def dataset_text(runs: str) -> str:
     )
 
 
-def _placeholder() -> str:
+def _placeholder(mechanism: str) -> str:
+    shown = HEADERS | ({"position": "position [deg]"} if mechanism == "hinge_pendulum" else {})
+    header = ",".join(["time [s]", *(shown.get(names[0], names[0]) for names in NEEDED[mechanism])])
     entries = [
-        f'[[runs]]\nfile = "run_{i}.csv"  # EXAMPLE: header such as time [s],position [mm]\nrole = "{role}"\n'
+        f'[[runs]]\nfile = "run_{i}.csv"  # EXAMPLE: header such as {header}\nrole = "{role}"\n'
         for i, role in ((1, "fit"), (2, "test"))
     ]
     return "\n".join(entries)

@@ -107,7 +107,7 @@ def _as_stated(dataset: Dataset, tracks: Sequence[Track]) -> list[str]:
     if late < mu:
         return [
             f"with the stated stiffness of {stiffness:.4g} 1/m friction would change by {late:.3g} over all the "
-            f"{_way(tracks):.3g} m that the load point moves, where it is {mu:.3g}: the block would hardly begin to slide; {units}"
+            f"{_way(tracks):.3g} m of the load point, where it is {mu:.3g}: a block would hardly begin to slide; {units}"
         ]
     return []
 

@@ -156,3 +156,17 @@ def test_columns_are_listed_where_none_looks_like_what_is_needed(tmp_path):
     file = _csv(tmp_path / "log.csv", "time [s],position [m],Ch7", TIME, 1e-3 * np.sin(7.0 * TIME), TIME)
     done = invoke("init", "prismatic_joint", "--from", file, "--out", tmp_path / "rig")
     assert "force or voltage: none of 'time', 'position', 'Ch7' looks like it; if one is, add columns" in done.output
+
+
+@pytest.mark.parametrize(
+    ("mechanism", "header"),
+    [
+        ("spring_slider", "time [s],position [mm],friction_coefficient"),
+        ("hinge_pendulum", "time [s],position [deg],torque [N m]"),
+        ("belt_box", "time [s],position [mm]"),
+    ],
+)
+def test_the_header_of_an_example_has_the_columns_that_its_mechanism_needs(tmp_path, mechanism, header):
+    done = CliRunner().invoke(main, ["init", mechanism, "--out", str(tmp_path / "rig")])
+    assert done.exit_code == 0
+    assert f"# EXAMPLE: header such as {header}\n" in (tmp_path / "rig" / "dataset.toml").read_text(encoding="utf-8")
