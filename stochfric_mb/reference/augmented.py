@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -26,7 +26,7 @@ from stochfric_mb.coefficients.processes import TIME
 from stochfric_mb.effects import Effect
 from stochfric_mb.effects.abi import native_effect
 from stochfric_mb.effects.combine import combined_process
-from stochfric_mb.errors import InputError, SimulationError, require_name, require_number
+from stochfric_mb.errors import InputError, SimulationError, require_number
 from stochfric_mb.laws import Law
 from stochfric_mb.mechanisms import BeltBox
 from stochfric_mb.reference import augmented_march, augmented_model
@@ -126,13 +126,12 @@ def augmented_system(
     process = combined_process(effects, process)
     path = CoefficientPath(process, law, seed=seed, sample=sample)
     run = np.zeros(1, augmented_model.RUN).view(np.recarray)[0]
-    places: dict[str, list[tuple[str, int]]] = {}
-    _set_mechanism(run, mechanism, places)
-    _set_law(run, law, places)
-    _set_effects(run, effects, places)
+    _set_mechanism(run, mechanism)
+    _set_law(run, law)
+    _set_effects(run, effects)
     _set_numerics(run, mechanism, law, effects, path, tolerance)
     _set_temperature(run, effects, temperature)
-    return AugmentedSystem(mechanism, law, tuple(effects), process, run, path.descriptor, places)
+    return AugmentedSystem(mechanism, law, tuple(effects), process, run, path.descriptor)
 
 
 class AugmentedSystem:
@@ -146,35 +145,10 @@ class AugmentedSystem:
         process: Process | None,
         run: Any,
         descriptor: npt.NDArray[np.float64],
-        places: Mapping[str, Sequence[tuple[str, int]]],
     ) -> None:
         """Hold the compiled view of a model; use `augmented_system`."""
         self.mechanism, self.law, self.effects, self.process = mechanism, law, effects, process
-        self._run, self._descriptor, self._places = run, descriptor, places
-
-    @property
-    def parameter_names(self) -> list[str]:
-        """Names that `with_parameters` takes: mass, ..., mu_s, mu_k, law.e_lim, effects.0.rate, ..."""
-        return list(self._places)
-
-    def with_parameters(self, values: Mapping[str, float]) -> AugmentedSystem:
-        """Return the system with other numbers; cheap, for fits: the numbers are not checked, step limits stay.
-
-        `mechanism`, `law` and `effects` of the result are those that the system was made from.
-
-        Args:
-            values: name -> value [SI]; see `parameter_names`.
-
-        Raises:
-            InputError: an unknown name.
-        """
-        run, descriptor = _copied(self._run), self._descriptor.copy()
-        for name, value in values.items():
-            if name not in self._places:
-                require_name("parameter", name, self._places)
-            for field, index in self._places[name]:
-                (descriptor if field == "descriptor" else run[field])[index] = value
-        return AugmentedSystem(self.mechanism, self.law, self.effects, self.process, run, descriptor, self._places)
+        self._run, self._descriptor = run, descriptor
 
     def march(self, start: Start, step: float, count: int) -> Motion:
         """Return the motion at start.time + step (1, ..., count).
@@ -315,20 +289,16 @@ def _end(run: Any) -> Start:
     )
 
 
-Places = dict[str, list[tuple[str, int]]]
-
-
-def _set_mechanism(run: Any, mechanism: BeltBox, places: Places) -> None:
+def _set_mechanism(run: Any, mechanism: BeltBox) -> None:
     m = augmented_model
     for name, index in (
         ("mass", m.M), ("damping", m.C), ("stiffness", m.K), ("normal_force", m.N), ("belt_velocity", m.VB),
         ("excitation_amplitude", m.FOOT), ("excitation_angular_frequency", m.W),
     ):  # fmt: skip
         run.constants[index] = getattr(mechanism, name)
-        places[name] = [("constants", index)]
 
 
-def _set_law(run: Any, law: Law, places: Places) -> None:
+def _set_law(run: Any, law: Law) -> None:
     m = augmented_model
     if law.kind not in LAWS:
         raise InputError(
@@ -336,8 +306,6 @@ def _set_law(run: Any, law: Law, places: Places) -> None:
             "or the reference, which takes any law without a flow"
         )
     run.constants[m.MEAN_S], run.constants[m.MEAN_K] = law.mu_s, law.mu_k
-    places["mu_s"] = [("constants", m.MEAN_S), ("descriptor", 4)]
-    places["mu_k"] = [("constants", m.MEAN_K), ("descriptor", 5)]
     numbers: dict[str, int] = {}
     if law.kind == "elastic_stick":
         run.constants[m.CURVE] = m.ELASTIC
@@ -348,31 +316,25 @@ def _set_law(run: Any, law: Law, places: Places) -> None:
         numbers = {"stribeck_velocity": m.DECAY}
     for name, index in numbers.items():
         run.constants[index] = getattr(law, name)
-        places[f"law.{name}"] = [("constants", index)]
 
 
-def _set_effects(run: Any, effects: Sequence[Effect], places: Places) -> None:
+def _set_effects(run: Any, effects: Sequence[Effect]) -> None:
     m = augmented_model
     if len(effects) > m.MAX_EFFECTS:
         raise InputError(f"{len(effects)} effects; there is room for {m.MAX_EFFECTS}: leave some out")
     offset = memory = 0
     around: list[tuple[bool, tuple[int, int, int]]] = []
     friction: list[tuple[int, tuple[int, int, int]]] = []
-    for i, effect in enumerate(effects):
+    for effect in effects:
         p = effect.parameters()
-        names = [f.name for f in dataclasses.fields(effect)]
         if effect.kind == "presliding_compliance":
             if run.constants[m.LIMIT] != 0.0:
                 raise InputError("law elastic_stick has presliding compliance; leave out the effect or use law coulomb")
             run.constants[m.LIMIT], run.constants[m.ZETA] = p
-            places |= {f"effects.{i}.{n}": [("constants", c)] for n, c in zip(names, (m.LIMIT, m.ZETA), strict=True)}
-        elif effect.coefficient_process() is not None:
-            places |= {f"effects.{i}.sigma_s": [("descriptor", 6)], f"effects.{i}.sigma_k": [("descriptor", 7)]}
-        elif (native := native_effect(type(effect))).surroundings or native.friction:
+        elif effect.coefficient_process() is None and ((native := native_effect(type(effect))).surroundings or native.friction):
             if offset + len(p) > m.MAX_PARAMETERS or memory + effect.n_memory > m.MAX_MEMORY:
                 raise InputError(f"the effects up to {effect.kind} have more parameters or unknowns than there is room for")
             run.p[offset : offset + len(p)] = p
-            places |= {f"effects.{i}.{name}": [("p", offset + j)] for j, name in enumerate(names)}
             if native.surroundings:
                 around.append((effect.n_memory > 0, (native.surroundings, offset, memory)))
             if native.friction:

@@ -204,23 +204,6 @@ def test_forecasts_are_marches() -> None:
         np.testing.assert_allclose(path, motion.position[n : n + 1000], atol=1.0e-9)
 
 
-def test_with_parameters_is_a_new_system_of_those_numbers() -> None:
-    effects = [example("dwell_ageing"), example("random_coefficients")]
-    system = augmented_system(BOX, COULOMB, effects, seed=3)
-    changed = system.with_parameters(
-        {"mass": 6.2, "mu_s": 0.82, "mu_k": 0.45, "effects.0.rate": 0.03, "effects.1.sigma_k": 0.01, "stiffness": 4000.0}
-    )
-    effects = [example("dwell_ageing", rate=0.03), example("random_coefficients", sigma_k=0.01)]
-    box = dataclasses.replace(BOX, mass=6.2, stiffness=4000.0)
-    direct = augmented_system(box, make_law("coulomb", mu_s=0.82, mu_k=0.45), effects, seed=3)
-    paths = [s.march(Start(), 1.0e-3, 3000).position for s in (changed, direct)]
-    assert np.abs(paths[0] - paths[1]).max() < 2.0e-8  # step limits and tolerances are those of the first
-    before = system.march(Start(), 1.0e-3, 100).position
-    np.testing.assert_array_equal(
-        augmented_system(BOX, COULOMB, system.effects, seed=3).march(Start(), 1.0e-3, 100).position, before
-    )
-
-
 @pytest.mark.parametrize("inner", ["elastic_stick", "havsin"])
 def test_law_with_nothing_is_the_law_inside(inner: str) -> None:
     law = make_law(inner, mu_s=0.8, mu_k=0.46)

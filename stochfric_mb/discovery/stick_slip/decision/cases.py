@@ -19,7 +19,6 @@ from stochfric_mb.discovery.stick_slip.screening.regression import Terms
 from stochfric_mb.discovery.stick_slip.simulation.auxiliary_state import auxiliary_state
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.errors import SimulationError
-from stochfric_mb.reference.augmented import Start
 
 FLOOR = 1.0e-3
 """Error of the features that is always allowed, over the normal force [-]: numerics are never discovered."""
@@ -216,20 +215,17 @@ def predict(model: Model, case: Case) -> Array | None:
     system = model.system(record)
     since = REMEMBERED / record.angular_frequency if all(e.forgets for e in system.effects) else 0.0
     memory = auxiliary_state(system, record, np.array([time]), np.array([position]), since=since)
-    start = Start(
-        time - model.late, position, record.stated.belt_velocity, True, max(case.onset[2] - ahead, 0.0),
-        memory=None if memory is None else tuple(memory[0]),
-    )  # fmt: skip
+    start = [time - model.late, position, record.stated.belt_velocity, 1.0, max(case.onset[2] - ahead, 0.0), 0.0]
     # room for a break-away that comes late by a fifth of the static deflection
     late = 0.2 * abs(case.onset[1]) / box.belt_velocity
     count = round((ahead + late + 1.6 * case.length + margin) * record.rate)
     try:
-        motion = system.march(start, 1.0 / record.rate, count)
+        moved = system.forecasts([start], 1.0 / record.rate, count, memory)[0]
     except SimulationError:
         return None
-    position = record.direction * motion.position
+    position = record.direction * moved
     if not np.isfinite(position).all():
         return None
-    time = start.time + model.late + np.arange(1, count + 1) / record.rate
-    simulated = dataclasses.replace(record, time=time, position=position, raw=position, outlier=np.zeros(count, dtype=bool))
+    shown = time + np.arange(1, count + 1) / record.rate
+    simulated = dataclasses.replace(record, time=shown, position=position, raw=position, outlier=np.zeros(count, dtype=bool))
     return features_near(simulated, case.onset[0], case.search)
