@@ -68,7 +68,7 @@ def with_deviations(
 
     def slope(k: int) -> Array:
         axis = axes[:, k]
-        rooms = tuple(min(WIDEST, _room(sign * axis, misfit.steps)) for sign in (-1.0, 1.0))
+        rooms = min(WIDEST, _room(-axis, misfit.steps)), min(WIDEST, _room(axis, misfit.steps))
         return _slope(lambda h: change(h * axis), firsts[k], rooms)
 
     slopes = np.stack(in_threads(slope, range(len(misfit.free))), axis=1) @ axes.T
