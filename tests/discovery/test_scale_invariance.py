@@ -10,8 +10,9 @@ import math
 import pytest
 
 from stochfric_mb.discovery import discover
+from stochfric_mb.discovery.stick_slip.simulation.deviations import ALIKE
 from stochfric_mb.discovery.stick_slip.simulation.natural_units import exponents
-from stochfric_mb.discovery.stick_slip.simulation.refit import ALIKE, MOST_WINDOWS
+from stochfric_mb.discovery.stick_slip.simulation.refit import MOST_WINDOWS
 from tests.discovery.generator.case import Case
 from tests.discovery.net.rigs import Size, belt_box, grown
 
