@@ -1,11 +1,10 @@
 """Are two samples of one distribution, how far apart are they, and how well is a mean known: with intervals.
 
-Tests and resampling are SciPy's; the CRPS is scoringrules'.
+Tests and resampling are SciPy's.
 """
 
 # pyright: reportUnknownMemberType=false, reportUnknownArgumentType=false, reportUnknownVariableType=false
-# pyright: reportMissingTypeStubs=false
-# (SciPy and scoringrules are partly typed)
+# (SciPy is partly typed)
 
 from __future__ import annotations
 
@@ -15,7 +14,7 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from scipy import stats
+from scipy import special, stats
 
 from stochfric_mb.ensemble.result import EnsembleResult
 from stochfric_mb.errors import InputError, require_number
@@ -178,15 +177,34 @@ def crps(observation: npt.ArrayLike, ensemble: npt.ArrayLike) -> Array:
     Q. J. R. Meteorol. Soc. 140, 2014, 1917-1923, doi 10.1002/qj.2270 (fair); M. Zamo, P. Naveau, Math. Geosci. 50, 2018,
     209-234, doi 10.1007/s11004-017-9709-7 (the same from probability weighted moments, in n log n instead of n^2).
     """
-    import scoringrules
-
     y, members = np.asarray(observation, dtype=np.float64), np.asarray(ensemble, dtype=np.float64)
     if members.ndim != y.ndim + 1 or members.shape[1:] != y.shape or len(members) < 2:
         raise InputError(
             f"an observation of shape {y.shape} needs an ensemble of shape (n_runs >= 2, *{y.shape}), not {members.shape}"
         )
-    members = np.ascontiguousarray(np.moveaxis(members, 0, -1))
-    return np.asarray(scoringrules.crps_ensemble(y, members, estimator="pwm", backend="numpy"), dtype=np.float64)
+    members = np.sort(members, axis=0)
+    count = len(members)
+    ranks = np.arange(count, dtype=np.float64).reshape(-1, *(1,) * y.ndim)
+    away = np.abs(members - y).mean(axis=0)
+    return np.asarray(away + members.mean(axis=0) - 2.0 * (members * ranks).sum(axis=0) / (count * (count - 1.0)))
+
+
+def crps_normal(error: npt.ArrayLike, deviation: npt.ArrayLike) -> Array:
+    """Return the continuous ranked probability score of normal forecasts [their unit].
+
+    CRPS = s (z (2 Phi(z) - 1) + 2 phi(z) - 1/sqrt(pi)), z = error/s; s/sqrt(pi) on average of what the forecast itself draws.
+
+    Args:
+        error: observed values less the forecasts' means, shape (...).
+        deviation: standard deviations s > 0 of the forecasts, of a shape that goes with it.
+
+    Reference: T. Gneiting, A. Raftery, J. Am. Stat. Assoc. 102, 2007, 359-378, doi 10.1198/016214506000001437, eq. 21.
+    """
+    s = np.asarray(deviation, dtype=np.float64)
+    z = np.asarray(error, dtype=np.float64) / s
+    return np.asarray(
+        s * (z * (2.0 * special.ndtr(z) - 1.0) + 2.0 * np.exp(-0.5 * z**2) / np.sqrt(2.0 * np.pi) - 1.0 / np.sqrt(np.pi))
+    )
 
 
 @dataclasses.dataclass(frozen=True)

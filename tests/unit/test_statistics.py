@@ -103,6 +103,15 @@ def test_errors_name_the_value(call, message):
         call()
 
 
+def test_crps_of_normal_forecasts():
+    grid = np.linspace(-30.0, 30.0, 600_001)
+    for error, deviation in ((0.0, 1.0), (1.3, 0.5), (-4.0, 2.0)):
+        exact = np.trapezoid((norm.cdf(grid, scale=deviation) - (grid >= error)) ** 2, grid)  # by its definition
+        assert statistics.crps_normal(error, deviation) == pytest.approx(exact, abs=2e-4)
+    drawn = np.random.default_rng(1).normal(scale=0.3, size=200_000)
+    assert statistics.crps_normal(drawn, 0.3).mean() == pytest.approx(0.3 / math.sqrt(math.pi), rel=5e-3)
+
+
 def test_crps_checks_shapes():
     with pytest.raises(InputError, match="shape"):
         statistics.crps([0.0, 1.0], [[1.0, 2.0, 3.0]] * 4)

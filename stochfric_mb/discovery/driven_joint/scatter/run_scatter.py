@@ -17,13 +17,14 @@ from collections.abc import Sequence
 
 import numpy as np
 import numpy.typing as npt
-from scipy.stats import norm, pearsonr
+from scipy.stats import pearsonr
 
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
 from stochfric_mb.discovery.driven_joint.scatter.between_groups import CoefficientScatter, estimated
 from stochfric_mb.discovery.driven_joint.scatter.stroke_coefficients import Stroke, dependence, strokes_of, variances
+from stochfric_mb.statistics import crps_normal
 
 Array = npt.NDArray[np.float64]
 
@@ -153,9 +154,6 @@ def crps_of(
 ) -> tuple[float, float]:
     """Return the mean CRPS of a model's forecasts of friction while it slides, and that of one that is right [N or N m].
 
-    CRPS = s (z (2 Phi(z) - 1) + 2 phi(z) - 1/sqrt(pi)), z the error over the standard deviation s; s/sqrt(pi) on average for
-    data from the forecast itself.
-
     Args:
         model: the model.
         balances: held-out runs.
@@ -166,6 +164,4 @@ def crps_of(
     error = np.concatenate([model.remainder(s, nuisances)[s.sliding] for s in balances])
     along = np.concatenate([dependence(model, s)[s.sliding] for s in balances])
     wide = np.hypot(noise, sigma * along)
-    z = error / wide
-    score = wide * (z * (2.0 * norm.cdf(z) - 1.0) + 2.0 * norm.pdf(z) - 1.0 / np.sqrt(np.pi))
-    return float(np.mean(score)), float(np.mean(wide) / np.sqrt(np.pi))
+    return float(np.mean(crps_normal(error, wide))), float(np.mean(wide) / np.sqrt(np.pi))

@@ -176,14 +176,20 @@ def _regular(pool: Pool, upper: np.ndarray) -> bool:
     travel = (pool.belt_velocity * pool.onset_time - pool.typical_onset) / belt
     rows = pool.rows
     rarer = sum(min(int(upper[m].sum()), int((~upper[m]).sum())) for m in rows)
-    phases = np.arange(PHASES) / PHASES
     for place in (pool.onset_time, travel):
-        for duty in DUTIES:
-            missed = np.zeros(len(grid))
-            for m in rows:
-                cycles = grid[:, None, None] * place[m] + phases[:, None]
-                wrong = ((cycles % 1.0 < duty) != upper[m]).sum(axis=2)
-                missed += wrong.min(axis=1)
-            if len(grid) and missed.min() <= criteria.OUT_OF_STEP * rarer:
-                return True
+        missed = np.zeros((len(DUTIES), len(grid)))
+        for m in rows:
+            missed += _out_of_step(grid, place[m], upper[m])
+        if missed.size and missed.min() <= criteria.OUT_OF_STEP * rarer:
+            return True
     return False
+
+
+def _out_of_step(grid: Array, place: Array, upper: np.ndarray) -> Array:
+    """Return how many slips of a run are at another level than the best phase has it, shape (duties, frequencies)."""
+    least = np.full((len(DUTIES), len(grid)), len(place))
+    for phase in np.arange(PHASES) / PHASES:
+        cycles = (grid[:, None] * place + phase) % 1.0
+        for i, duty in enumerate(DUTIES):
+            np.minimum(least[i], np.count_nonzero((cycles < duty) != upper, axis=1), out=least[i])
+    return least

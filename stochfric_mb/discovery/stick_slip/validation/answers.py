@@ -69,16 +69,15 @@ def _fit(decision: Decision, slip_study: Study, recalibrated: Fit) -> Fit:
     model = decision.model
     calm = deterministic(model)
     windows, uncertainty = slip_study.windows, slip_study.uncertainty
-    further = None if decision.seen is None else decision.seen.of(calm)
-    if not calm.effects:
-        # forecasts follow the draws of the slips that they begin before; the slips, all of them, tell the mean
-        fit = refit(calm, windows, uncertainty, evaluations=0) if model.random else recalibrated
-        return _joined(model, with_deviations(fit, windows, uncertainty), slip_study)
-    starts = (calm, dataclasses.replace(calm, law=recalibrated.model.law, corrections=recalibrated.model.corrections))
-    fits = [refit(m, windows, uncertainty, evaluations=25, further=further, weigh=calm) for m in starts]
-    fit = min(fits, key=lambda f: f.objective)
+    further = decision.seen.of(calm) if decision.seen is not None and calm.effects else None
+    if calm.effects:
+        starts = (calm, dataclasses.replace(calm, law=recalibrated.model.law, corrections=recalibrated.model.corrections))
+        fits = [refit(m, windows, uncertainty, evaluations=25, further=further, weigh=calm) for m in starts]
+        fit = min(fits, key=lambda f: f.objective)
+    else:
+        fit = recalibrated
     if model.random:
-        # of a scatter beside effects, too, where it forecasts better
+        # a fit to single forecasts follows the draws of the slips that they begin before; the slips, all of them, tell the mean
         unmoved = refit(calm, windows, uncertainty, evaluations=0)
         fit = min(fit, unmoved, key=lambda f: sum(float(score(_joined(model, f, slip_study).model, w).sum()) for w in windows))
     return _joined(model, with_deviations(fit, windows, uncertainty, further=further), slip_study)
@@ -97,7 +96,7 @@ def _joined(model: Model, fit: Fit, slip_study: Study) -> Fit:
         for place, value in zip(places, values, strict=True):
             full[place] = dict(value)
         own[run] = tuple(full)
-    joined = Model(fit.model.law, fit.model.corrections, tuple(effects), model.process, own, model.measured)
+    joined = dataclasses.replace(model, law=fit.model.law, corrections=fit.model.corrections, effects=tuple(effects), own=own)
     return dataclasses.replace(fit, model=matched(joined, slip_study.pool))
 
 

@@ -20,6 +20,7 @@ from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.records.slips import N_FEATURES, Slips
 from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import deterministic
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
+from stochfric_mb.statistics import crps_normal
 
 LOOKED_AT = 24
 """Most slips of a run that are predicted."""
@@ -85,16 +86,14 @@ class Gaps:
 
 def _scores(models: Sequence[Model], slips: Slips, calibration: Calibration, rows: np.ndarray) -> Array:
     """Return the scores of three models and the floor of the last, slip by slip, shape (n_rows, 4)."""
-    from scoringrules import crps_normal
-
     pool = make_pool([slips], [calibration])
     noise = np.sqrt(np.diag(calibration.covariance))
     columns: list[Array] = []
     spread = noise
     for model in models:
         spread = np.hypot(noise, _scatter(model, slips))
-        error = (pool.features[rows] - _expected(model, slips, pool.dwell, rows)) / spread
-        columns.append((crps_normal(error, 0.0, 1.0, backend="numpy") * spread / noise).mean(axis=1))
+        error = pool.features[rows] - _expected(model, slips, pool.dwell, rows)
+        columns.append((crps_normal(error, spread) / noise).mean(axis=1))
     # of a normal number scored by its own distribution the expectation is 1/sqrt(pi) of its deviation
     floor = np.full(len(rows), float(np.mean(spread / noise)) / np.sqrt(np.pi))
     return np.stack([*columns, floor], axis=1)
