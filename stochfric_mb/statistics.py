@@ -4,6 +4,7 @@ Tests and resampling are SciPy's.
 """
 
 # pyright: reportUnknownMemberType=false, reportUnknownArgumentType=false, reportUnknownVariableType=false
+# pyright: reportMissingTypeStubs=false
 # (SciPy is partly typed)
 
 from __future__ import annotations

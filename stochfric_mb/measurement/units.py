@@ -66,9 +66,10 @@ def to_si(values: Array, unit: str, quantity: Quantity, *, rotational: bool | No
     if quantity.name == "position" and targets == ("m",) and given.dimensionality == units.Unit("N").dimensionality:
         lever = f"; {ON_THE_SPRING}"
     if given.dimensionality == units.Unit("A").dimensionality and targets in (("N",), ("N m",)):
+        ampere = float(units.Quantity(1.0, given).to("A").magnitude)
         lever = (
             f"; a motor's current is a force or torque once it is multiplied by its constant: of 0.1 {targets[0]}/A, "
-            f'scale = {{ {quantity.name} = 0.1 }} and units = {{ {quantity.name} = "{targets[0]}" }}'
+            f'scale = {{ {quantity.name} = {0.1 * ampere:g} }} and units = {{ {quantity.name} = "{targets[0]}" }}'
         )
     raise InputError(f"{wrong}; give {_choices(quantity, targets)}{lever}")
 

@@ -31,6 +31,7 @@ STATED_UNITS: dict[str, dict[str, float]] = {
     "mass": {"kg": 1.0, "g": 1e-3, "t": 1e3},
     "normal_force": {"N": 1.0, "kN": 1e3, "mN": 1e-3},
     "length": {"m": 1.0, "mm": 1e-3},
+    "inertia": {"kg m^2": 1.0, "g m^2": 1e-3, "kg cm^2": 1e-4, "kg mm^2": 1e-6, "g cm^2": 1e-7},
 }
 """Key of ``[mechanism]`` -> units in which it may have been written, its SI unit first."""
 ALIKE = 0.9
@@ -56,8 +57,9 @@ POWERS_ALONG: dict[str, tuple[float, float]] = {
 """What may have a wrong unit at a slide -> powers of its factor in force over acceleration over mass, and in friction."""
 POWERS_ABOUT: dict[str, tuple[float, float]] = {
     "angle": (-1.0, 0.0), "time": (2.0, 0.0), "mass": (-1.0, 0.0), "length": (-2.0, 0.0), "torque": (1.0, 1.0),
+    "inertia": (-1.0, 0.0),
 }  # fmt: skip
-"""The same at a hinge, whose inertia is m l^2 and some of its own."""
+"""The same at a hinge, whose inertia is m l^2 and some of its own: the larger part is asked about."""
 PAGE = 'docs/datasets.md, "A rig that turns"'
 """Where arcs are explained."""
 ROUGHLY = 3.0
@@ -226,7 +228,7 @@ def _require_inertia(run: Run, joint: PrismaticJoint | HingePendulum, mu_k: floa
         return
     if seen is None and not hinge:
         return
-    powers = POWERS_ABOUT if hinge else POWERS_ALONG
+    powers = _powers_about(joint) if isinstance(joint, HingePendulum) else POWERS_ALONG
     causes: list[tuple[str, float]] = []
     for name, (of_mass, of_friction) in powers.items():
         for factor in FACTORS[name]:
@@ -258,6 +260,12 @@ def _require_inertia(run: Run, joint: PrismaticJoint | HingePendulum, mu_k: floa
         raise InputError(f"{run.source}: {what}. Probably {', or '.join(remedies)}{lever}")
 
 
+def _powers_about(hinge: HingePendulum) -> dict[str, tuple[float, float]]:
+    """Return what may be in a wrong unit at a hinge, with its powers: of m l^2 and the inertia beside it the larger one's."""
+    smaller = ("mass", "length") if hinge.inertia > hinge.mass * hinge.length**2 else ("inertia",)
+    return {name: powers for name, powers in POWERS_ABOUT.items() if name not in smaller}
+
+
 def _through(run: Run, joint: PrismaticJoint | HingePendulum) -> str:
     """Return the stated number that the recorded drive is multiplied by; empty: it is taken as it is."""
     if joint.drive_factor != 1.0:
@@ -268,7 +276,7 @@ def _through(run: Run, joint: PrismaticJoint | HingePendulum) -> str:
 
 def _in_unit(run: Run, joint: PrismaticJoint | HingePendulum, name: str, factor: float, stated_in: str) -> str:
     """Return what is in another unit, and what to write; nothing where no unit in use has this size."""
-    if name in ("mass", "length"):
+    if name in ("mass", "length", "inertia"):
         value, (si, *_) = float(getattr(joint, name)), STATED_UNITS[name]
         really = _unit_of(STATED_UNITS[name], 1.0 / factor)
         return f"{name} in {stated_in} is in {really}: write {name} = {value / factor:.6g} ({si})" if really != si else ""

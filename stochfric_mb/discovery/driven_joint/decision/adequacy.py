@@ -70,9 +70,9 @@ def _lost(place: PlaceOutcome) -> str:
     nothing = 1.0 + criteria.CLOSES_NOTHING
     # a controller keeps the motion on its course, where without one starts and contacts decide much: it has the last word
     far = criteria.FAR_AHEAD if before.loop is not None else nothing
-    pairs = ((before.forward, after.forward, far), (before.loop, after.loop, nothing))
-    ahead = [(b, a, most) for b, a, most in pairs if a is not None and b is not None]
-    lost = [f"simulated, it is off by {a:.3g} for {b:.3g}" for b, a, most in ahead if not a < most * b]
+    pairs = ((before.forward, after.forward, far, f" {after.forward_unit}"), (before.loop, after.loop, nothing, ""))
+    ahead = [(b, a, most, unit) for b, a, most, unit in pairs if a is not None and b is not None]
+    lost = [f"simulated, it is off by {a:.3g}{unit} for {b:.3g}{unit}" for b, a, most, unit in ahead if not a < most * b]
     explained = _gain(place)
     if not lost and explained >= criteria.EXPLAINED_HELD_OUT:
         return ""

@@ -80,12 +80,9 @@ def with_steps(model: Model, steps: Mapping[str, tuple[float, float]], place: in
         size, when = next(iter(steps.values()))
         model = model.plus(make_effect(kind_with_signature(JUMP), size=size, time=when))
         place = len(model.effects) - 1
-    own = dict(model.own)
     for run, (size, when) in steps.items():
-        values = list(own.get(run, ({},) * len(model.effects)))
-        values[place] = dict(values[place]) | {"size": size, "time": when}
-        own[run] = tuple(values)
-    return dataclasses.replace(model, own=own)
+        model = model.with_own(run, [place], [{"size": size, "time": when}])
+    return model
 
 
 def _bounded(kind: str, values: Mapping[str, float | str]) -> Effect:

@@ -33,9 +33,7 @@ def delay_compensated(result: Study, delay: float) -> Study:
 
 def without_delay(model: Model) -> Model:
     """Return the model of records put on time."""
-    kept = [i for i, e in enumerate(model.effects) if LATE not in e.signatures]
-    own = {run: tuple(values[i] for i in kept) for run, values in model.own.items()}
-    return dataclasses.replace(model, effects=tuple(model.effects[i] for i in kept), own=own)
+    return model.keeping([i for i, e in enumerate(model.effects) if LATE not in e.signatures])
 
 
 def with_delay(model: Model, delay: float) -> Model:

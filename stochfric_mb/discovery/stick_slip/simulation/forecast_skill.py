@@ -66,17 +66,12 @@ def settled(model: Model, runs: HeldOut) -> Model:
     if not phased(model):
         return model
     calm = deterministic(model)
-    kept = [i for i, e in enumerate(model.effects) if e in calm.effects]
-    own = dict(model.own)
+    kept = lasting(model)
     for windows in runs.first:
-        if len(windows) == 0:
-            continue
-        result = in_phase(calm, windows).own[windows.record.name]
-        full: list[dict[str, float]] = [{} for _ in model.effects]
-        for place, values in zip(kept, result, strict=True):
-            full[place] = dict(values)
-        own[windows.record.name] = tuple(full)
-    return dataclasses.replace(model, own=own)
+        if len(windows):
+            run = windows.record.name
+            model = model.with_own(run, kept, in_phase(calm, windows).own[run])
+    return model
 
 
 def _stepped(model: Model, runs: HeldOut) -> Model:
@@ -103,9 +98,12 @@ def _stepped(model: Model, runs: HeldOut) -> Model:
 
 def deterministic(model: Model) -> Model:
     """Return the model without what is random in it: its mean."""
-    kept = [i for i, e in enumerate(model.effects) if not e.random]
-    own = {run: tuple(values[i] for i in kept) for run, values in model.own.items()}
-    return dataclasses.replace(model, process=None, effects=tuple(model.effects[i] for i in kept), own=own)
+    return dataclasses.replace(model.keeping(lasting(model)), process=None)
+
+
+def lasting(model: Model) -> list[int]:
+    """Return the places of the effects that are not random: those of `deterministic`."""
+    return [i for i, e in enumerate(model.effects) if not e.random]
 
 
 def scores(model: Model, runs: HeldOut) -> Array:

@@ -136,21 +136,29 @@ class Model:
     def without_last(self, kind: str) -> Model:
         """Return the model without its last effect of a kind."""
         last = max(i for i, e in enumerate(self.effects) if e.kind == kind)
-        return self._with_those([i for i in range(len(self.effects)) if i != last])
+        return self.keeping([i for i in range(len(self.effects)) if i != last])
 
     def without_waves(self, kinds: Collection[str]) -> Model:
         """Return the model without its waves of some kinds."""
         waves = self.waves(kinds)
-        return self._with_those([i for i in range(len(self.effects)) if i not in waves]) if waves else self
+        return self.keeping([i for i in range(len(self.effects)) if i not in waves]) if waves else self
 
     def waves(self, kinds: Collection[str] | None = None) -> list[int]:
         """Return the places of its waves, which have a phase of their own in each run, of some kinds or of all."""
         waves = [i for i, e in enumerate(self.effects) if e.own_to_run and e.group != "sensor"]
         return waves if kinds is None else [i for i in waves if self.effects[i].kind in kinds]
 
-    def _with_those(self, places: Sequence[int]) -> Model:
+    def keeping(self, places: Sequence[int]) -> Model:
+        """Return the model with the effects at some places alone."""
         own = {run: tuple(values[i] for i in places) for run, values in self.own.items()}
         return dataclasses.replace(self, effects=tuple(self.effects[i] for i in places), own=own)
+
+    def with_own(self, run: str, places: Sequence[int], values: Sequence[Mapping[str, float]]) -> Model:
+        """Return the model with the effects at some places having values of their own in a run."""
+        own = list(self.own.get(run, ({},) * len(self.effects)))
+        for place, mine in zip(places, values, strict=True):
+            own[place] = dict(mine)
+        return dataclasses.replace(self, own={**self.own, run: tuple(own)})
 
     @property
     def left_open(self) -> frozenset[str]:

@@ -23,6 +23,7 @@ from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import (
     as_split_for,
     deterministic,
     floor_of,
+    lasting,
     mean_score,
     settled,
 )
@@ -85,18 +86,13 @@ def _fit(decision: Decision, slip_study: Study, recalibrated: Fit) -> Fit:
 
 def _joined(model: Model, fit: Fit, slip_study: Study) -> Fit:
     """Return a fit of a model's mean with what is random in the model, its strength matched to the slips."""
-    calm = deterministic(model)
-    places = [i for i, e in enumerate(model.effects) if e in calm.effects]
+    places = lasting(model)
     effects = list(model.effects)
     for place, effect in zip(places, fit.model.effects, strict=False):
         effects[place] = effect
-    own = {}
+    joined = dataclasses.replace(model, law=fit.model.law, corrections=fit.model.corrections, effects=tuple(effects), own={})
     for run, values in fit.model.own.items():
-        full: list[dict[str, float]] = [{} for _ in effects]
-        for place, value in zip(places, values, strict=True):
-            full[place] = dict(value)
-        own[run] = tuple(full)
-    joined = dataclasses.replace(model, law=fit.model.law, corrections=fit.model.corrections, effects=tuple(effects), own=own)
+        joined = joined.with_own(run, places, values)
     return dataclasses.replace(fit, model=matched(joined, slip_study.pool))
 
 
