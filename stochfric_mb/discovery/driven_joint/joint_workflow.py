@@ -7,7 +7,6 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.balance.balances import Balances
@@ -35,7 +34,6 @@ from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.mechanisms import Cascade, Mjcf, PrismaticJoint, ProportionalDerivative, SpringSlider
 from stochfric_mb.scenario import ABSOLUTE, Scenario
 
-Array = npt.NDArray[np.float64]
 Progress = Callable[[str], None]
 ANSWERS = 3
 """Answers that are tried, each without what led those before it: the held-out runs judge so many, and no more."""

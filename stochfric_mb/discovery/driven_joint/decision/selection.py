@@ -7,7 +7,6 @@ import functools
 from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
-import numpy.typing as npt
 from scipy.stats import f as fisher
 
 from stochfric_mb.discovery import criteria
@@ -24,8 +23,6 @@ from stochfric_mb.discovery.driven_joint.fit.wave_scan import tried
 from stochfric_mb.discovery.driven_joint.search.candidate_fits import Beside, CandidateFits, Found, is_none, may_be_zero
 from stochfric_mb.discovery.driven_joint.search.candidates import Candidate
 from stochfric_mb.discovery.inference.paired import Paired
-
-Array = npt.NDArray[np.float64]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -108,8 +105,6 @@ class Selected:
 
 State = tuple[frozenset[str], float, list[Nuisance]]
 """What a selection leaves out, how beliefs weigh in it, and the numbers of the mechanism as they are believed."""
-Fixed = Sequence[tuple[int, str]]
-"""Numbers of effects, by their places in a model and names, that a fit leaves as they are."""
 
 
 class Selector:
@@ -130,8 +125,8 @@ class Selector:
         self.recalibrated, self._noise = settled(start, balances, nuisances, noise=_typical(balances))
         self._begin = self._noise, self._nuisances
 
-    def _fit(self, model: JointModel, *, refined: bool = True, fixed: Fixed = ()) -> JointFit:
-        return fit(model, self._balances, self._nuisances, noise=self._noise, refined=refined, fixed=fixed)
+    def _fit(self, model: JointModel) -> JointFit:
+        return fit(model, self._balances, self._nuisances, noise=self._noise, refined=True)
 
     def run(self, without: frozenset[str] = frozenset()) -> Selected:
         """Return what is selected, without some kinds of effects and numbers of the mechanism."""

@@ -7,7 +7,6 @@ from collections.abc import Callable, Hashable, Sequence
 from typing import NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 from scipy.stats import chi2
 
 from stochfric_mb.discovery import criteria
@@ -22,8 +21,6 @@ from stochfric_mb.discovery.driven_joint.search.first_order import Prospect, pro
 from stochfric_mb.discovery.driven_joint.simulation.scores import FLOOR, noise_floor
 from stochfric_mb.effects.joints import JointSpan
 from stochfric_mb.effects.shapes.course import LeveledCourse
-
-Array = npt.NDArray[np.float64]
 
 STARTS, STARTS_ROUGH = 2, 6
 """Best starts of an effect from which it is fitted; of a rough one the best is often in a wrong valley."""
