@@ -6,7 +6,6 @@ import dataclasses
 from collections.abc import Sequence
 
 import numpy as np
-import numpy.typing as npt
 
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.balance.force_balance import (
@@ -21,10 +20,9 @@ from stochfric_mb.discovery.driven_joint.fit.beliefs import Belief, beliefs
 from stochfric_mb.discovery.driven_joint.fit.evidence import evidence, settings_of
 from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, settled
 from stochfric_mb.discovery.inference.free_parameter import MECHANISM, FreeParameter
+from stochfric_mb.discovery.inference.least_squares import left_by
 from stochfric_mb.effects import kind_with_signature
 from stochfric_mb.effects.traits import MORE_DAMPING, OTHER_AREA
-
-Array = npt.NDArray[np.float64]
 
 INERTIAL = ("mass", "length", "inertia", "armature")
 """Numbers of what moves."""
@@ -172,6 +170,5 @@ def _driven(balances: Sequence[ForceBalance], nuisances: Sequence[Nuisance]) -> 
         return True
     columns = np.concatenate([np.column_stack([s.columns[n] for n in names if n in s.columns]) for s in balances])
     driven = np.concatenate([s.driven for s in balances])
-    scaled = columns / np.maximum(np.linalg.norm(columns, axis=0), 1.0e-300)
-    rest = driven - scaled @ np.linalg.lstsq(scaled, driven, rcond=None)[0]
+    rest = left_by(columns, driven, None)
     return float(np.linalg.norm(rest)) > UNDRIVEN * float(np.linalg.norm(driven))

@@ -17,6 +17,7 @@ from stochfric_mb.discovery.driven_joint.fit.evidence import scatter, settings_o
 from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, prior_rows
 from stochfric_mb.discovery.driven_joint.fit.joint_model import STEP, change_of
 from stochfric_mb.discovery.inference.free_parameter import MECHANISM
+from stochfric_mb.discovery.inference.least_squares import lengths, solved
 
 Array = npt.NDArray[np.float64]
 
@@ -194,11 +195,11 @@ class SmoothDependences:
             more = [self._sliding_columns(c) for c in some]
             slopes = np.column_stack([self._by_drive(c) for c in some]) if some else np.zeros((len(y) - len(prior), 0))
             design = np.column_stack([known, *(_padded(c, len(prior)) for c in more)])
+            size = lengths(design)
             for block in blocks(self._balances):
                 inner = np.concatenate([b[m] for b, m in zip(block, inside, strict=True)])
                 out = np.r_[inner, np.zeros(len(prior), dtype=bool)]
-                scale = np.maximum(np.linalg.norm(design, axis=0), 1.0e-300)
-                b = np.linalg.lstsq(design[~out] / scale, y[~out], rcond=1.0e-10)[0] / scale
+                b = solved(design[~out], y[~out], size)
                 left = error_of_drive(y[out], design[out], b, slopes[inner]) if slopes.any() else y[out] - design[out] @ b
                 errors[i] += float(np.sum(left**2))
         return 1.0 - float(np.sqrt(errors[1] / errors[0]))
@@ -227,10 +228,8 @@ class SmoothDependences:
         fit is taken, the drive being explained by motion only.
         """
         both = np.vstack([whitened(design, self._settings, n, ratio), below])
-        scale = np.maximum(np.linalg.norm(both, axis=0), 1.0e-300)
         goal = np.r_[whitened(rest[:, None], self._settings, n, ratio)[:, 0], offsets]
-        fitted = np.linalg.lstsq(both / scale, goal, rcond=1.0e-10)[0]
-        b = fitted / scale
+        b = solved(both, goal)
         if not slopes.any():
             return scatter(rest - design @ b, self._settings, n).deviance
         left = [error_of_drive(rest, design, part * b, slopes) for part in PARTS]

@@ -17,6 +17,7 @@ from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalan
 from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, prior_rows, prior_weight
 from stochfric_mb.discovery.driven_joint.fit.wave_scan import BEST, FINE, Start, Waves, length, peaks, wave_starts, waves_left
 from stochfric_mb.discovery.inference.alignment import HARMONICS, aligned
+from stochfric_mb.discovery.inference.least_squares import solved
 from stochfric_mb.effects.contract import Scan
 from stochfric_mb.effects.shapes.splines import returning
 
@@ -144,10 +145,9 @@ def _shape(one: Returning, pieces: int, current: JointFit, balances: Sequence[Fo
         np.column_stack([current.jacobian, np.concatenate(columns)]),
         np.column_stack([prior, np.zeros((len(prior), pieces - 1))]),
     ])  # fmt: skip
-    scale = np.maximum(np.linalg.norm(design, axis=0), 1.0e-300)
     values = np.r_[np.concatenate(current.remainders), off]
-    solved = np.linalg.lstsq(design / scale, values, rcond=1.0e-10)[0] / scale
-    return solved[-(pieces - 1) :], values - design @ solved
+    numbers = solved(design, values)
+    return numbers[-(pieces - 1) :], values - design @ numbers
 
 
 def _seen(current: JointFit, balances: Sequence[ForceBalance]) -> Iterator[tuple[Array, Array]]:
