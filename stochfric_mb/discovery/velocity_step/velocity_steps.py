@@ -255,16 +255,12 @@ def _doubts(named: Fitted, gap: Gap) -> list[str]:
     return ends
 
 
-def _steps_down(track: Track) -> bool:
-    """Return whether the load point slows down somewhere in a run by a step."""
-    return bool((np.maximum.accumulate(track.speed) > STEP * track.speed).any())
-
-
 def _advice(effects: Sequence[EffectEstimate], tracks: Sequence[Track]) -> str:
     """Return the next experiment."""
     if any(e.kind == kind_with_signature(SLOPE_IN_DISTANCE) for e in effects):
         return "The same steps over the same way again, and from another place: they separate the distance slid from the place."
-    steps = "Hold tests" if any(map(_steps_down, tracks)) else "Steps down as well as up, and hold tests"
+    slows = any((np.maximum.accumulate(t.speed) > STEP * t.speed).any() for t in tracks)
+    steps = "Hold tests" if slows else "Steps down as well as up, and hold tests"
     return f"{steps}: they separate ageing with time from slip with distance."
 
 
