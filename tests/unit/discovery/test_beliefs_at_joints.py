@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from stochfric_mb.discovery import criteria
+from stochfric_mb.discovery.driven_joint import joint_result
 from stochfric_mb.discovery.driven_joint.balance.confounding import Confounded, stand_ins
 from stochfric_mb.discovery.driven_joint.balance.force_balance import Nuisance
 from stochfric_mb.discovery.driven_joint.decision import findings, remarks
@@ -226,12 +227,12 @@ def test_when_most_is_missing_is_told_and_runs_in_which_nothing_slides_are_passe
 @pytest.mark.parametrize(("left", "drawn", "says"), [(2.3, False, True), (1.2, False, False), (2.3, True, False)])
 def test_names_that_leave_more_than_noise_say_so(monkeypatch, left, drawn, says):
     """Drag over part of a stroke was three names, with 3.5 times the noise left, and not a word of it."""
-    monkeypatch.setattr(remarks, "noise_floor", lambda *_: 1.0)
+    monkeypatch.setattr(joint_result, "noise_floor", lambda *_: 1.0)
     selected = SimpleNamespace(
         final=SimpleNamespace(rms=left, model=None), effects=("one",), left=(("speed and direction", 0.1),)
     )
     random = SimpleNamespace(accounted=drawn)
-    place = SimpleNamespace(selected=selected, random=random, runs=None, fit=(), nuisances=(), place="", thing="joint")
+    place = PlaceOutcome("", selected, (), None, (), (), {}, 0.01, random=random)
     said = remarks._more_missing(place)
     assert bool(said) is says
     assert not says or said[0].endswith("2.3 times the noise is left with what is named: more is missing; it depends on speed")
