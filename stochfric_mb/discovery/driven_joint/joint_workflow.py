@@ -84,7 +84,7 @@ def _fits_better(before: Sequence[PlaceOutcome], after: Sequence[PlaceOutcome]) 
     names = {p.place: p for p in after}
     worst = max(before, key=lambda p: p.selected.final.rms / p.floor)
     plain, late = worst.selected, names[worst.place].selected
-    n = max(late.final.independent, 4.0)
+    n = late.final.n
     evidence = 2.0 * n * float(np.log(plain.final.rms / late.final.rms)) - float(np.log(n))
     share = share_by_delay(plain.recalibrated, late.final, names[worst.place].fit, worst.nuisances)
     return evidence > NAMED and share >= criteria.EXPLAINED_AT_JOINTS

@@ -151,7 +151,7 @@ def _form(candidate: Candidate, effect: Effect, balances: Any, fitted: JointFit,
     size = float(change @ change)
     if size <= 1.0e-9 * float(np.sum(columns**2)):
         return None
-    n = max(fitted.independent, 4.0)
+    n = fitted.n
     needed = needed_for_a_name(candidate.parameters, n, len(candidate.starts) * kinds)
     share = max(math.expm1(needed / n), BEYOND)
     strength = math.sqrt(share * len(columns) * fitted.rms**2 / size)

@@ -19,7 +19,7 @@ from stochfric_mb.discovery.driven_joint.balance.force_balance import (
 from stochfric_mb.discovery.driven_joint.fit.beliefs import Belief, beliefs
 from stochfric_mb.discovery.driven_joint.fit.evidence import evidence, settings_of
 from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, settled
-from stochfric_mb.discovery.inference.free_parameter import MECHANISM, FreeParameter
+from stochfric_mb.discovery.inference.free_parameter import MECHANISM
 from stochfric_mb.discovery.inference.least_squares import left_by
 from stochfric_mb.effects import kind_with_signature
 from stochfric_mb.effects.traits import MORE_DAMPING, OTHER_AREA
@@ -124,7 +124,7 @@ def beyond_beliefs(
             continue
         if any(b in heavier and b.off(fitted.model) < 0.0 for b in several):
             continue
-        cost = len(several) * np.log(max(fitted.independent, 4.0)) + 2.0 * np.log(len(believed) + len(exact))
+        cost = len(several) * np.log(fitted.n) + 2.0 * np.log(len(believed) + len(exact))
         score = evidence(current, fitted, fitted, settings) - float(cost)
         first, *others = (Released(b, score, current.rms, fitted.rms) for b in several)
         freed.append(Freed(first, fitted, wide, tuple(others)))
@@ -153,12 +153,9 @@ def _factor_of_the_drive(balances: Sequence[ForceBalance], nuisances: Sequence[N
 
 def _at_an_end(belief: Belief, fitted: JointFit) -> bool:
     """Return whether a number is as far as it can be at all, a mass of 0 for instance: there it stands for something else."""
-    one, value = next((k, x) for k, x in zip(fitted.free, fitted.values, strict=True) if _is(k, belief))
+    at = fitted.at(belief.owner, belief.name)[0]
+    one, value = fitted.free[at], fitted.values[at]
     return min(value - one.low, one.high - value) < AT_AN_END * belief.deviation
-
-
-def _is(one: FreeParameter, belief: Belief) -> bool:
-    return (one.owner, one.name) == (belief.owner, belief.name)
 
 
 def _driven(balances: Sequence[ForceBalance], nuisances: Sequence[Nuisance]) -> bool:

@@ -122,7 +122,8 @@ class Selector:
         self._tell = progress or (lambda _: None)
         self._candidates = CandidateFits(self._balances, self._tell)
         self._settings, self._smooth, self._pairs = settings_of(balances), SmoothDependences(balances), confounded(balances)
-        self.recalibrated, self._noise = settled(start, balances, nuisances, noise=_typical(balances))
+        typical = float(np.std(np.concatenate([s.driven[s.sliding] for s in balances])))
+        self.recalibrated, self._noise = settled(start, balances, nuisances, noise=typical)
         self._begin = self._noise, self._nuisances
 
     def _fit(self, model: JointModel) -> JointFit:
@@ -183,7 +184,7 @@ class Selector:
         without = self._fit(dataclasses.replace(final.model, effects=tuple(e for i, e in enumerate(effects) if i != own)))
         numbers = _numbers(without, trial.candidate, final)
         keeps = self._smooth.left_to(final, without, self._noise, axis)
-        return keeps - numbers * float(np.log(max(final.independent, 4.0))) < criteria.NAMED
+        return keeps - numbers * float(np.log(final.n)) < criteria.NAMED
 
     def _released(self, current: JointFit, stage: Stage) -> tuple[list[Released], JointFit] | None:
         """Return the number that is off by more than its uncertainty, or two, if that explains more than any effect.
@@ -194,7 +195,7 @@ class Selector:
         freed = self._freed(current)
         # all are judged by the same count of independent windows: that of the best fit
         finest = min((*(t.fit for t in stage.trials), *(f.fit for f in freed)), key=lambda f: f.rms)
-        n = max(finest.independent, 4.0)
+        n = finest.n
 
         def worth(fitted: JointFit, numbers: int) -> float:
             return evidence(current, fitted, finest, self._settings) - numbers * float(np.log(n))
@@ -216,7 +217,7 @@ class Selector:
         for number in released:
             model, nuisances = number.belief.held(current.model, self._nuisances)
             fitted, noise = settled(model, self._balances, nuisances, noise=self._noise)
-            score = evidence(fitted, current, current, self._settings) - float(np.log(max(current.independent, 4.0)))
+            score = evidence(fitted, current, current, self._settings) - float(np.log(current.n))
             if score < criteria.NAMED:
                 self._nuisances, self._noise, current = nuisances, noise, fitted
                 released = [r for r in released if r is not number]
@@ -306,7 +307,7 @@ class Selector:
     def _scored(self, current: JointFit, found: Found) -> list[Trial]:
         # all are judged by the same count of independent windows: that of the best fit
         best = min((f for _, f in found.fits), key=lambda f: f.rms)
-        n = max(best.independent, 4.0)
+        n = best.n
         trials = [self._trial(current, c, f, best, n, found.asked) for c, f in found.fits]
         return simplest_first(sorted(trials, key=lambda t: -t.score), self._pairs)
 
@@ -327,8 +328,7 @@ class Selector:
             kind = trial.candidate.kind
             without = dataclasses.replace(current.model, effects=tuple(e for e in current.model.effects if e.kind != kind))
             fitted, _ = settled(without, self._balances, self._nuisances, noise=self._noise)
-            n = max(current.independent, 4.0)
-            score = evidence(fitted, current, current, self._settings) - trial.candidate.parameters * np.log(n)
+            score = evidence(fitted, current, current, self._settings) - trial.candidate.parameters * np.log(current.n)
             if score < criteria.NAMED:
                 current, effects = fitted, [t for t in effects if t.candidate.kind != kind]
         return current, effects
@@ -376,7 +376,7 @@ class Selector:
         """
         fits = [(c.kind, c.parameters, f) for c, f in self._found(without).fits]
         fits += [(f.number.name, f.count, f.fit) for f in self._freed(without)]
-        price = float(np.log(max(final.independent, 4.0)))
+        price = float(np.log(final.n))
         mine = evidence(without, final, final, self._settings)
         theirs = [(name, n, evidence(without, f, final, self._settings)) for name, n, f in fits if finding(name) != own]
         # one that explains next to nothing stands in for nothing, however close the scores
@@ -425,7 +425,3 @@ def simplest_first(trials: list[Trial], pairs: Sequence[Confounded] = ()) -> lis
 def _numbers(current: JointFit, candidate: Candidate, fitted: JointFit) -> int:
     """Return how many numbers a candidate adds to a fit, phases that each run has for itself among them."""
     return candidate.parameters + max(len(fitted.model.own) - len(current.model.own) - 1, 0)
-
-
-def _typical(balances: Sequence[ForceBalance]) -> float:
-    return float(np.std(np.concatenate([s.driven[s.sliding] for s in balances])))

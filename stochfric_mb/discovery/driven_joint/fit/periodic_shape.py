@@ -85,11 +85,10 @@ def shaped_starts(scan: Scan, found: Sequence[Returning], current: JointFit, bal
     """
     assert scan.shaped is not None
     starts: list[Start] = []
-    ends = np.cumsum([len(r) for r in current.remainders])[:-1]
     shapes = [(one, *_shape(one, scan.pieces, current, balances)) for one in found]
     for one, weights, left in sorted(shapes, key=lambda s: float(np.sum(s[2] ** 2)))[:BEST]:
         rest = left[: len(current.jacobian)]
-        n = max(current.independent_in(np.split(rest, ends)), 4.0)
+        n = max(current.independent_in(current.split(rest)), 4.0)
         if 2.0 * n * float(np.log(current.rms / np.sqrt(np.mean(rest**2)))) < (scan.pieces + len(balances)) * float(np.log(n)):
             break
         effect, begins = scan.shaped(one.number, weights), 2.0 * np.pi * one.begins

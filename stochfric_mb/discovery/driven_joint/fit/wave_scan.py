@@ -80,8 +80,7 @@ def waves_left(scan: Scan, current: JointFit, balances: Sequence[ForceBalance]) 
         return Waves(*(np.zeros((1, 0)) for _ in range(4)))
     known = np.vstack([current.jacobian, prior_rows(current, prior_weight(current))[0]])
     basis = np.linalg.svd(known / lengths(known), full_matrices=False)[0][: len(current.jacobian)]
-    ends = np.cumsum([len(r) for r in current.remainders])[:-1]
-    parts = zip(balances, current.remainders, np.split(basis, ends), strict=True)
+    parts = zip(balances, current.remainders, current.split(basis), strict=True)
     sums = np.array([_sums(scan, s, r, q, numbers) for s, r, q in parts])
     own = scan.begin(float(numbers[0]), 1.0, 0.0).own_to_run
     return Waves(numbers, *_solved(sums if own else sums.sum(axis=0, keepdims=True)))

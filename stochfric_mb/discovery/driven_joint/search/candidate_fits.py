@@ -163,12 +163,11 @@ class CandidateFits:
         """
         current = beside.current
         best = min((f for _, f in fits), key=lambda f: f.rms, default=current)
-        least, n = best.rms, max(best.independent, 4.0)
-        ends = np.cumsum([len(r) for r in current.remainders])[:-1]
+        least, n = best.rms, best.n
         supported: list[tuple[Candidate, float]] = []
         for one in courses:
             left = predicted_left(current.model, begun(one.starts[0], self._balances), self._balances, current)
-            rms, own = float(np.sqrt(np.mean(left**2))), current.independent_in(np.split(left, ends))
+            rms, own = float(np.sqrt(np.mean(left**2))), current.independent_in(current.split(left))
             if criteria.WINDOWS_A_NUMBER * one.parameters <= own:
                 supported.append((one, rms))
                 least, n = min((least, n), (rms, own))
@@ -199,7 +198,7 @@ def is_none(fitted: JointFit, owner: int) -> bool:
     """
     effect = fitted.model.effects[owner]
     if effect.moves_load:
-        share = next(k for k in fitted.free if (k.owner, k.name) == (owner, SHARE))
+        share = fitted.free[fitted.at(owner, SHARE)[0]]
         value = float(getattr(effect, SHARE))
         return may_be_zero(fitted, owner) or min(value - share.low, share.high - value) < AT_AN_END * (share.high - share.low)
     varies = effect.weights if isinstance(effect, LeveledCourse) and effect.any_shape else VARIES
