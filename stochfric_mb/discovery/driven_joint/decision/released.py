@@ -66,19 +66,28 @@ class Released:
 class Freed:
     """A fit in which a number may be anything, or two that one thing moves."""
 
-    number: Released
-    """The number."""
+    beliefs: tuple[Belief, ...]
+    """The number, or two, and what was believed."""
+    score: float
+    """Evidence, as of a trial."""
     fit: JointFit
     """The fit."""
     nuisances: list[Nuisance]
     """Numbers of the mechanism, as they are believed in it."""
-    also: tuple[Released, ...] = ()
-    """A further number that may be anything in it, which one thing moves together with the first."""
+
+    @property
+    def name(self) -> str:
+        """Name of the first number."""
+        return self.beliefs[0].name
 
     @property
     def count(self) -> int:
         """How many numbers may be anything."""
-        return 1 + len(self.also)
+        return len(self.beliefs)
+
+    def released(self, within: JointFit) -> list[Released]:
+        """Return the numbers as findings, beside the fit with them within their beliefs."""
+        return [Released(b, self.score, within.rms, self.fit.rms) for b in self.beliefs]
 
 
 def finding(name: str) -> str:
@@ -126,9 +135,8 @@ def beyond_beliefs(
             continue
         cost = len(several) * np.log(fitted.n) + 2.0 * np.log(len(believed) + len(exact))
         score = evidence(current, fitted, fitted, settings) - float(cost)
-        first, *others = (Released(b, score, current.rms, fitted.rms) for b in several)
-        freed.append(Freed(first, fitted, wide, tuple(others)))
-    return sorted(freed, key=lambda f: -f.number.score)
+        freed.append(Freed(several, score, fitted, wide))
+    return sorted(freed, key=lambda f: -f.score)
 
 
 def _together(asked: Sequence[Belief], pressing: Sequence[Belief]) -> list[tuple[Belief, ...]]:

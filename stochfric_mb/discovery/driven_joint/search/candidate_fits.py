@@ -103,10 +103,10 @@ class CandidateFits:
         asked = [self._seen(beside, c) for c in _asked(span, beside, of_loads=True)]
         return Found([(p.candidate, f) for p in asked if (f := self._once(beside, p)) is not None], ())
 
-    def leaves_more_than_noise(self, found: Found, current: JointFit, nuisances: Sequence[Nuisance]) -> bool:
+    def leaves_more_than_noise(self, found: Found, beside: Beside) -> bool:
         """Return whether the best fit that there is leaves more than noise."""
-        least = min((current, *(f for _, f in found.fits)), key=lambda f: f.rms)
-        return least.rms > FLOOR * noise_floor(least.model, self._balances, nuisances)
+        least = min((beside.current, *(f for _, f in found.fits)), key=lambda f: f.rms)
+        return least.rms > FLOOR * noise_floor(least.model, self._balances, beside.nuisances)
 
     def _span(self, beside: Beside) -> JointSpan:
         model = beside.current.model
