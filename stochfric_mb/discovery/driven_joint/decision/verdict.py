@@ -45,10 +45,10 @@ def verdict(
     places: Sequence[PlaceOutcome],
     notes: Sequence[str],
     loop_floor: float | None,
-    readings: Sequence[Effect] = (),
-    channel: tuple[str, Timing] | None = None,
+    readings: Sequence[Effect],
+    channel: tuple[str, Timing] | None,
     *,
-    mostly: bool = False,
+    mostly: bool,
 ) -> Result:
     """Return the result of a dataset.
 
