@@ -123,7 +123,8 @@ def _answered(asked: _Asked, without: frozenset[str]) -> PlaceOutcome:
         models = (stated, runs.believed), (selected.recalibrated.model, runs.believed), (final, runs.foreseen)
         each = [crps_of(m, test_balances, nuisances, noise, sigma) for m, sigma in models]
         how = "the same forecasts of data that the model gives itself; its noise from differences between neighbouring windows"
-        forecasts = Gap("crps_friction", fit_balances[0].unit, True, *(score for score, _ in each), each[-1][1], how)
+        unit, crps = fit_balances[0].unit, (score for score, _ in each)
+        forecasts = Gap("crps_friction", unit, True, *crps, floor=each[-1][1], floor_from=how)
     return PlaceOutcome(
         place=name,
         selected=selected,
