@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
 from collections.abc import Callable
 
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
 from stochfric_mb.discovery.driven_joint.balance.timing import Timing
 from stochfric_mb.discovery.driven_joint.decision.selection import Selected, Stage
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
-from stochfric_mb.discovery.driven_joint.scatter.run_scatter import Forecasts, RunScatter
+from stochfric_mb.discovery.driven_joint.scatter.run_scatter import RunScatter
 from stochfric_mb.discovery.driven_joint.scatter.stroke_scatter import StrokeScatter
 from stochfric_mb.discovery.driven_joint.simulation.pictures import Picture
-from stochfric_mb.discovery.driven_joint.simulation.scores import Score
+from stochfric_mb.discovery.driven_joint.simulation.scores import FLOOR, Score, noise_floor
 from stochfric_mb.discovery.outcome import Outcome
+from stochfric_mb.discovery.result import Gap
 
 
 @dataclasses.dataclass(frozen=True)
@@ -42,8 +44,8 @@ class PlaceOutcome:
     """Scatter of friction from stroke to stroke; None: too few strokes."""
     runs: RunScatter | None = None
     """Scatter of friction from run to run; None: too few runs."""
-    forecasts: Forecasts | None = None
-    """Errors of forecasts that allow for that scatter; None where there is none."""
+    forecasts: Gap | None = None
+    """CRPS of forecasts that allow for that scatter; None where there is none."""
     undelayed: JointModel | None = None
     """The recalibrated model without the identified delay; None: there is none."""
     idle: str = ""
@@ -65,6 +67,21 @@ class PlaceOutcome:
     def searched(self) -> tuple[Stage, ...]:
         """All steps of the search at this place."""
         return (*self.selected.stages, *self.beside)
+
+    @property
+    def drawn(self) -> bool:
+        """Whether friction that is drawn anew, for each stroke or run, accounts for what scatters."""
+        return any(seen is not None and seen.accounted for seen in (self.random, self.runs))
+
+    @functools.cached_property
+    def noise(self) -> float:
+        """Noise of the balance on the fit runs, by what the final model leaves [N or N m]."""
+        return noise_floor(self.selected.final.model, self.fit, self.nuisances)
+
+    @property
+    def leaves_noise(self) -> bool:
+        """Whether the final model leaves no more than that of the fit runs."""
+        return self.selected.final.rms < FLOOR * self.noise
 
     @property
     def late(self) -> float:

@@ -7,7 +7,6 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.balance.balances import Balances
@@ -35,7 +34,6 @@ from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.mechanisms import Cascade, Mjcf, PrismaticJoint, ProportionalDerivative, SpringSlider
 from stochfric_mb.scenario import ABSOLUTE, Scenario
 
-Array = npt.NDArray[np.float64]
 Progress = Callable[[str], None]
 ANSWERS = 3
 """Answers that are tried, each without what led those before it: the held-out runs judge so many, and no more."""
@@ -86,7 +84,7 @@ def _fits_better(before: Sequence[PlaceOutcome], after: Sequence[PlaceOutcome]) 
     names = {p.place: p for p in after}
     worst = max(before, key=lambda p: p.selected.final.rms / p.floor)
     plain, late = worst.selected, names[worst.place].selected
-    n = max(late.final.independent, 4.0)
+    n = late.final.n
     evidence = 2.0 * n * float(np.log(plain.final.rms / late.final.rms)) - float(np.log(n))
     share = share_by_delay(plain.recalibrated, late.final, names[worst.place].fit, worst.nuisances)
     return evidence > NAMED and share >= criteria.EXPLAINED_AT_JOINTS

@@ -28,7 +28,8 @@ def next_experiment(pairs: Sequence[Confounded], places: Sequence[PlaceOutcome],
         places: what was found at each place.
         axis: on what depends what is missing and has no name; empty: nothing is.
     """
-    if not any(p.selected.named for p in places) and (advice := _where_runs_differ(places) or _along(axis)):
+    known = next((advice for condition, advice in ALONG.items() if axis.startswith(condition)), "")
+    if not any(p.selected.named for p in places) and (advice := _where_runs_differ(places) or known):
         return advice
     quiet = ("position", "time", "distance")
     worst = [p for p in pairs if p.first not in quiet and p.second not in quiet]
@@ -51,11 +52,6 @@ def next_experiment(pairs: Sequence[Confounded], places: Sequence[PlaceOutcome],
             return f"To distinguish {which}: pauses, strokes of other lengths, and a start from warm."
         return f"To distinguish {which}: more speeds, both directions at each, and a second load."
     return "Rest before break-away, for what rest does to friction; slow reversals, for presliding; a second load."
-
-
-def _along(axis: str) -> str:
-    """Return the next experiment where what is missing depends on ``axis``; empty: none is known."""
-    return next((advice for condition, advice in ALONG.items() if axis.startswith(condition)), "")
 
 
 def _where_runs_differ(places: Sequence[PlaceOutcome]) -> str:

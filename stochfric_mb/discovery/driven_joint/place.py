@@ -18,12 +18,13 @@ from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, fit, prior
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
 from stochfric_mb.discovery.driven_joint.fit.wave_scan import with_phases
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
-from stochfric_mb.discovery.driven_joint.scatter.run_scatter import Forecasts, crps_of, run_scatter
+from stochfric_mb.discovery.driven_joint.scatter.run_scatter import crps_of, run_scatter
 from stochfric_mb.discovery.driven_joint.scatter.stroke_coefficients import dependence
 from stochfric_mb.discovery.driven_joint.scatter.stroke_scatter import stroke_scatter
 from stochfric_mb.discovery.driven_joint.simulation.augmented import stated_scatter
 from stochfric_mb.discovery.driven_joint.simulation.scores import closed_share, noise_floor, rms, score
 from stochfric_mb.discovery.inference.noise import independent_count
+from stochfric_mb.discovery.result import Gap
 from stochfric_mb.effects import kind_with_signature
 from stochfric_mb.effects.traits import LATE
 from stochfric_mb.mechanisms import PrismaticJoint
@@ -121,7 +122,9 @@ def _answered(asked: _Asked, without: frozenset[str]) -> PlaceOutcome:
     if runs is not None and runs.accounted:
         models = (stated, runs.believed), (selected.recalibrated.model, runs.believed), (final, runs.foreseen)
         each = [crps_of(m, test_balances, nuisances, noise, sigma) for m, sigma in models]
-        forecasts = Forecasts(*(score for score, _ in each), floor=each[-1][1])
+        how = "the same forecasts of data that the model gives itself; its noise from differences between neighbouring windows"
+        unit, crps = fit_balances[0].unit, (score for score, _ in each)
+        forecasts = Gap("crps_friction", unit, True, *crps, floor=each[-1][1], floor_from=how)
     return PlaceOutcome(
         place=name,
         selected=selected,

@@ -21,6 +21,7 @@ from stochfric_mb.discovery.driven_joint.fit.wave_scan import Start
 from stochfric_mb.discovery.driven_joint.search.candidate_fits import SIZES
 from stochfric_mb.discovery.driven_joint.search.candidates import Candidate, candidates, span_of
 from stochfric_mb.discovery.driven_joint.source import source_of
+from stochfric_mb.discovery.inference.least_squares import beyond
 from stochfric_mb.discovery.planning.joint_motion import measured_at_joint, measured_in_model
 from stochfric_mb.discovery.planning.planned_run import PlannedRun
 from stochfric_mb.discovery.planning.rig_plan import Further, Part, RigPlan
@@ -145,14 +146,12 @@ def _form(candidate: Candidate, effect: Effect, balances: Any, fitted: JointFit,
     columns = effect_columns(fitted.model, Start(effect), balances)
     rows, _ = prior_rows(fitted, prior_weight(fitted))
     known = np.vstack([fitted.jacobian, rows])
-    basis, _ = np.linalg.qr(known / np.maximum(np.linalg.norm(known, axis=0), 1.0e-300))
-    padded = np.vstack([columns, np.zeros((len(rows), columns.shape[1]))])
-    left = padded - basis @ (basis.T @ padded)
+    left = beyond(known, np.vstack([columns, np.zeros((len(rows), columns.shape[1]))]))
     change = left[:, 0]
     size = float(change @ change)
     if size <= 1.0e-9 * float(np.sum(columns**2)):
         return None
-    n = max(fitted.independent, 4.0)
+    n = fitted.n
     needed = needed_for_a_name(candidate.parameters, n, len(candidate.starts) * kinds)
     share = max(math.expm1(needed / n), BEYOND)
     strength = math.sqrt(share * len(columns) * fitted.rms**2 / size)

@@ -157,7 +157,7 @@ class _Study:
     def columns(self, law: Law, values: Sequence[float]) -> Array:
         """Return what each number of a law but mu_0 changes, shape (rows, numbers - 1)."""
         at = np.array(values)
-        steps = NUDGE * np.diag(law.scales)[1:]
+        steps = NUDGE * np.diag([n.scale for n in law.numbers])[1:]
         return np.stack([self.added(law, at + s) - self.added(law, at - s) for s in steps], axis=1)
 
 
@@ -203,7 +203,7 @@ def _at_limit(
 
     Its score must reach that of a name, and it must take away more than `MATERIAL` beyond the ``simpler`` law.
     """
-    cost = (len(law.names) - 1) * math.log(study.independent) + 2.0 * math.log(len(law.starts))
+    cost = (len(law.numbers) - 1) * math.log(study.independent) + 2.0 * math.log(len(law.starts))
     share = math.expm1((criteria.NAMED + cost) / study.independent)
     basis = None if simpler is None else np.linalg.qr(simpler)[0]
 

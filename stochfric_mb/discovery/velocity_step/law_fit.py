@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from stochfric_mb.discovery.driven_joint.fit.fitting import DIFFERENCE, TOLERANCE
 from stochfric_mb.discovery.inference.fitter import minimised
-from stochfric_mb.discovery.inference.free_parameter import INSIDE
+from stochfric_mb.discovery.inference.free_parameter import LAW, FreeParameter, steps_of
 from stochfric_mb.discovery.inference.noise import independent_count
 from stochfric_mb.discovery.velocity_step.laws import Law, Track
 from stochfric_mb.effects import kind_with_signature
@@ -61,24 +61,23 @@ def fit(law: Law, tracks: Sequence[Track], starts: Sequence[Sequence[float] | Ar
 
 def fit_from(law: Law, tracks: Sequence[Track], start: Array, evaluations: int) -> Fitted:
     """Return the fit of a law from one start to the fit runs among the tracks."""
-    scale = np.array(law.scales)
+    steps = steps_of([FreeParameter(LAW, k.name, x, k.scale, k.low, k.high) for k, x in zip(law.numbers, start, strict=True)])
     fitted = [i for i, t in enumerate(tracks) if t.run.role == "fit"]
 
     def errors(step: Array) -> Array:
-        predicted = law.predict(tracks, start + scale * step)
+        predicted = law.predict(tracks, steps.values(step))
         return np.concatenate([tracks[i].friction - predicted[i] for i in fitted])
 
-    low, high = (np.array(law.low) - start) / scale - INSIDE, (np.array(law.high) - start) / scale + INSIDE
     minimum = minimised(
-        errors, np.zeros(len(start)), low, high, difference=DIFFERENCE, evaluations=evaluations, tolerance=TOLERANCE
+        errors, np.zeros(len(start)), steps.low, steps.high, difference=DIFFERENCE, evaluations=evaluations, tolerance=TOLERANCE
     )
-    jacobian, values = minimum.jacobian, start + scale * minimum.x
+    jacobian, values = minimum.jacobian, steps.values(minimum.x)
     predicted = law.predict(tracks, values)
     rest = [tracks[i].friction - predicted[i] for i in fitted]
     n, total = sum(map(len, rest)), sum(independent_count(r) for r in rest)
     variance = float(np.mean(errors(minimum.x) ** 2)) * n / max(total, 1.0)
     covariance = np.linalg.pinv(jacobian.T @ jacobian, hermitian=True) * variance
-    return Fitted(law, values, np.asarray(covariance * np.outer(scale, scale), dtype=np.float64), rest)
+    return Fitted(law, values, np.asarray(covariance * np.outer(steps.scale, steps.scale), dtype=np.float64), rest)
 
 
 def score_over(plain: Fitted, richer: Fitted, n: float, choices: int) -> float:

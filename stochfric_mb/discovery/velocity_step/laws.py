@@ -45,29 +45,42 @@ class Track:
 
 
 @dataclasses.dataclass(frozen=True)
+class Number:
+    """A number of a law."""
+
+    name: str
+    """Its name."""
+    unit: str
+    """Its unit."""
+    scale: float
+    """A natural step."""
+    low: float = -np.inf
+    """Smallest value."""
+    high: float = np.inf
+    """Largest value."""
+
+
+@dataclasses.dataclass(frozen=True)
 class Law:
     """A friction law that is fitted."""
 
     kind: str
     """Effect that it stands for; empty: constant friction."""
-    names: tuple[str, ...]
+    numbers: tuple[Number, ...]
     """Its numbers."""
-    units: tuple[str, ...]
-    """Their units."""
     starts: tuple[tuple[float, ...], ...]
     """Where fits begin."""
-    scales: tuple[float, ...]
-    """Natural steps."""
-    low: tuple[float, ...]
-    """Smallest values."""
-    high: tuple[float, ...]
-    """Largest values."""
     predict: Callable[[Sequence[Track], Array], list[Array]]
     """Tracks and numbers -> friction coefficients."""
     variant: str = ""
     """Which of several forms of that effect it is."""
     pieces: int = 0
     """Pieces of the course that it follows, its last numbers; 0: none."""
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of its numbers."""
+        return tuple(n.name for n in self.numbers)
 
 
 def laws(reference: float, stiffness: float, mu: float, shortest: float, way: float) -> list[Law]:
@@ -112,49 +125,34 @@ def laws(reference: float, stiffness: float, mu: float, shortest: float, way: fl
         return [p[0] + p[1] * t.slid + m for t, m in zip(tracks, _remembered(tracks, p[2:], reference, state), strict=True)]
 
     least, stiffest = float(np.log(shortest)), float(np.log(max(mu, 0.01) / shortest))
-    free = np.inf
-    numbers = ("mu_0", "slope", "direct_effect", "evolution_effect", "log_distance", "log_stiffness", "log_state")
+    level, slope = Number("mu_0", "-", 0.01, 0.0), Number("slope", "1/m", 1.0)
+    direct, log_stiffness = Number("direct_effect", "-", 0.002, 1.0e-4), Number("log_stiffness", "-", 0.3, high=stiffest)
+    settles = level, slope, Number("change", "-", 0.01), Number("log_distance", "-", 0.3, least, float(np.log(way)))
+    remembers = (
+        level, slope, direct, Number("evolution_effect", "-", 0.002), Number("log_distance", "-", 0.3, least), log_stiffness,
+        Number("log_state", "-", 0.3, -LONG_BEFORE, LONG_BEFORE),
+    )  # fmt: skip
+    by_way, by_speed, by_memory = (kind_with_signature(finding) for finding in (SLOPE_IN_DISTANCE, RATE, MEMORY))
     memories = {"": memory} | {
         name: functools.partial(memory, state=state) for name, state in (("slip law", SLIP), ("quadratic law", QUADRATIC))
     }
-
+    ends = [(mu, 0.0, size, float(np.log(part * way))) for size in (0.01, -0.01) for part in SETTLING]
+    through = [(mu, 0.0, 0.005, float(np.log(stiffer * stiffness))) for stiffer in (0.3, 1.0, 3.0)]
+    remembered = [memory_start(mu, stiffness, *start) for start in MEMORY_STARTS]
     return [
-        Law("", ("mu_0",), ("-",), ((mu,),), (0.01,), (0.0,), (free,), constant),
-        Law(
-            kind_with_signature(SLOPE_IN_DISTANCE), ("mu_0", "slope"), ("-", "1/m"), ((mu, 0.0),),
-            (0.01, 1.0), (0.0, -free), (free, free), drift,
-        ),
-        Law(
-            kind_with_signature(SLOPE_IN_DISTANCE), ("mu_0", "slope", "change", "log_distance"), ("-", "1/m", "-", "-"),
-            tuple((mu, 0.0, size, float(np.log(part * way))) for size in (0.01, -0.01) for part in SETTLING),
-            (0.01, 1.0, 0.01, 0.3), (0.0, -free, -free, least), (free, free, free, float(np.log(way))), settling, "running-in",
-        ),
+        Law("", (level,), ((mu,),), constant),
+        Law(by_way, (level, slope), ((mu, 0.0),), drift),
+        Law(by_way, settles, tuple(ends), settling, "running-in"),
         *(
             Law(
-                kind_with_signature(SLOPE_IN_DISTANCE), ("mu_0", *COURSE[:n]), ("-",) * (n + 1), ((mu, *(0.0,) * n),),
-                (0.01,) * (n + 1), (0.0, *(-free,) * n), (free,) * (n + 1), functools.partial(course, pieces=n - 2),
-                f"course of {n - 2} pieces", n - 2,
+                by_way, (level, *(Number(name, "-", 0.01) for name in COURSE[: n + 2])), ((mu, *(0.0,) * (n + 2)),),
+                functools.partial(course, pieces=n), f"course of {n} pieces", n,
             )
-            for n in (pieces + 2 for pieces in COARSER)
+            for n in COARSER
         ),
-        Law(
-            kind_with_signature(RATE), ("mu_0", "slope", "a_minus_b"), ("-", "1/m", "-"), ((mu, 0.0, 0.0),),
-            (0.01, 1.0, 0.001), (0.0, -free, -free), (free, free, free), speed,
-        ),
-        Law(
-            kind_with_signature(RATE), ("mu_0", "slope", "direct_effect", "log_stiffness"), ("-", "1/m", "-", "-"),
-            tuple((mu, 0.0, 0.005, float(np.log(stiffer * stiffness))) for stiffer in (0.3, 1.0, 3.0)),
-            (0.01, 1.0, 0.002, 0.3), (0.0, -free, 1.0e-4, -free), (free, free, free, stiffest), pulled, "through the spring",
-        ),
-        *(
-            Law(
-                kind_with_signature(MEMORY), numbers, ("-", "1/m", "-", "-", "-", "-", "-"),
-                tuple(memory_start(mu, stiffness, *start) for start in MEMORY_STARTS),
-                (0.01, 1.0, 0.002, 0.002, 0.3, 0.3, 0.3), (0.0, -free, 1.0e-4, -free, least, -free, -LONG_BEFORE),
-                (free, free, free, free, free, stiffest, LONG_BEFORE), predict, variant,
-            )
-            for variant, predict in memories.items()
-        ),
+        Law(by_speed, (level, slope, Number("a_minus_b", "-", 0.001)), ((mu, 0.0, 0.0),), speed),
+        Law(by_speed, (level, slope, direct, log_stiffness), tuple(through), pulled, "through the spring"),
+        *(Law(by_memory, remembers, tuple(remembered), predict, variant) for variant, predict in memories.items()),
     ]  # fmt: skip
 
 

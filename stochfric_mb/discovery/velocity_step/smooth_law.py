@@ -12,7 +12,7 @@ from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.inference.noise import independent_count
 from stochfric_mb.discovery.inference.paired import Paired, paired
 from stochfric_mb.discovery.velocity_step.law_fit import Fitted, fit_from, held_out, score_over
-from stochfric_mb.discovery.velocity_step.laws import Law, Track
+from stochfric_mb.discovery.velocity_step.laws import Law, Number, Track
 from stochfric_mb.effects import kinds_with
 from stochfric_mb.effects.traits import ANONYMOUS
 
@@ -112,11 +112,8 @@ def _with_table(law: Law, place: Callable[[Track], Array], knots: Array) -> Law:
         plain = law.predict(tracks, p[: 1 - KNOTS])
         return [friction + np.interp(place(t), knots, table) for t, friction in zip(tracks, plain, strict=True)]
 
-    more = KNOTS - 1
-    return Law(
-        kinds_with(ANONYMOUS)[0], (*law.names, *(f"change_{i}" for i in range(1, KNOTS))), (*law.units, *("-",) * more), (),
-        (*law.scales, *(STEP,) * more), (*law.low, *(-np.inf,) * more), (*law.high, *(np.inf,) * more), predict,
-    )  # fmt: skip
+    table = (Number(f"change_{i}", "-", STEP) for i in range(1, KNOTS))
+    return Law(kinds_with(ANONYMOUS)[0], (*law.numbers, *table), (), predict)
 
 
 def _blocks(rest: Sequence[Array]) -> Array:

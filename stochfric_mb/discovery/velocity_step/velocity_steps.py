@@ -241,12 +241,11 @@ def _result(
 
 def _doubts(named: Fitted, gap: Gap) -> list[str]:
     """Return what speaks against the law that is named: numbers at the end of what is looked for, and more left than noise."""
-    law = named.law
     ends = [
-        f"{name.removeprefix('log_')} is as {'small' if value - low <= high - value else 'large'} as is looked for: the form "
-        "is in doubt, and so are the other numbers"
-        for name, value, low, high in zip(law.names, named.values, law.low, law.high, strict=True)
-        if min(value - low, high - value) <= AT_END * max(abs(value), 1.0e-12)
+        f"{n.name.removeprefix('log_')} is as {'small' if value - n.low <= n.high - value else 'large'} as is looked for: the "
+        "form is in doubt, and so are the other numbers"
+        for n, value in zip(named.law.numbers, named.values, strict=True)
+        if min(value - n.low, n.high - value) <= AT_END * max(abs(value), 1.0e-12)
     ]
     ratio = gap.augmented / gap.floor if gap.floor > 0.0 else 0.0
     if ratio > FLOOR:
@@ -255,16 +254,12 @@ def _doubts(named: Fitted, gap: Gap) -> list[str]:
     return ends
 
 
-def _steps_down(track: Track) -> bool:
-    """Return whether the load point slows down somewhere in a run by a step."""
-    return bool((np.maximum.accumulate(track.speed) > STEP * track.speed).any())
-
-
 def _advice(effects: Sequence[EffectEstimate], tracks: Sequence[Track]) -> str:
     """Return the next experiment."""
     if any(e.kind == kind_with_signature(SLOPE_IN_DISTANCE) for e in effects):
         return "The same steps over the same way again, and from another place: they separate the distance slid from the place."
-    steps = "Hold tests" if any(map(_steps_down, tracks)) else "Steps down as well as up, and hold tests"
+    slows = any((np.maximum.accumulate(t.speed) > STEP * t.speed).any() for t in tracks)
+    steps = "Hold tests" if slows else "Steps down as well as up, and hold tests"
     return f"{steps}: they separate ageing with time from slip with distance."
 
 
@@ -364,20 +359,17 @@ def _largest_change(fitted: Fitted) -> dict[str, Interval]:
 
 
 def _numbers(fitted: Fitted) -> dict[str, Interval]:
-    law, intervals = fitted.law, _largest_change(fitted)
-    for name, value, deviation, unit, low in zip(law.names, fitted.values, fitted.deviations, law.units, law.low, strict=True):
-        if name in COURSE:
+    intervals = _largest_change(fitted)
+    for one, value, deviation in zip(fitted.law.numbers, fitted.values, fitted.deviations, strict=True):
+        if one.name in COURSE or deviation == 0.0:  # nothing in these data depends on it
             continue
-        if deviation == 0.0:  # nothing in these data depends on it
-            continue
-        number = confidence_interval(value, deviation, unit, low)
-        if name.startswith("log_"):
+        number = confidence_interval(value, deviation, one.unit, one.low)
+        if one.name.startswith("log_"):
             middle, least, most = (float(np.exp(min(x, 700.0))) for x in (number.value, number.low, number.high))
-            intervals[name[4:]] = Interval(
-                middle, least, most, {"log_distance": "m", "log_stiffness": "1/m", "log_state": "-"}[name]
-            )
+            unit = {"log_distance": "m", "log_stiffness": "1/m", "log_state": "-"}[one.name]
+            intervals[one.name[4:]] = Interval(middle, least, most, unit)
         else:
-            intervals[name] = number
+            intervals[one.name] = number
     return intervals
 
 

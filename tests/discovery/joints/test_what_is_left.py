@@ -139,10 +139,9 @@ def test_a_mass_beyond_its_belief_has_to_hold_in_runs_that_were_left_out(masses,
     source = source_of(Dataset(title="", scenario_path=None, scenario=scenario(), runs=tuple(runs)))
     balances, nuisances = source.balances("", "fit", 0.0), source.nuisances("")
     selector = Selector(balances, nuisances, source.stated(""))
-    current = selector.recalibrated
-    freed = next(f for f in selector._freed(current) if f.number.name == "mass")
-    assert freed.number.score > criteria.NAMED
-    assert selector._foretells(current, freed) == foretold
+    freed = next(f for f in selector._freed(selector.begin) if f.name == "mass")
+    assert freed.score > criteria.NAMED
+    assert selector._foretells(selector.begin, freed) == foretold
 
 
 def test_a_number_at_the_end_of_its_range_stands_for_something_else():
@@ -151,7 +150,7 @@ def test_a_number_at_the_end_of_its_range_stands_for_something_else():
     source = source_of(measured)
     balances, nuisances = source.balances("", "fit", 0.0), source.nuisances("")
     selector = Selector(balances, nuisances, source.stated(""))
-    assert "mass" not in [f.number.name for f in selector._freed(selector.recalibrated)]
+    assert "mass" not in [f.name for f in selector._freed(selector.begin)]
 
 
 @pytest.mark.parametrize(
@@ -239,11 +238,10 @@ def test_a_wave_that_may_as_well_not_be_there_is_dropped():
     source = source_of(measured)
     selector = Selector(source.balances("", "fit", 0.0), source.nuisances(""), source.stated(""))
     ripple = make_effect("drive_gain_change", ripple=1.0e-4, pitch=0.05, phase=0.3)
-    plain = selector.recalibrated
-    final = selector._fit(dataclasses.replace(plain.model, effects=(ripple,)))
+    final = selector._refitted(selector.begin, dataclasses.replace(selector.recalibrated.model, effects=(ripple,)))
     kept, effects = selector._without_zero(final, [None])
     assert effects == []
-    assert kept.model.effects == ()
+    assert kept.current.model.effects == ()
 
 
 @pytest.mark.parametrize("off", [0.1, -0.1])

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from stochfric_mb.discovery import criteria
+from stochfric_mb.discovery.driven_joint import joint_result
 from stochfric_mb.discovery.driven_joint.balance.confounding import Confounded, stand_ins
 from stochfric_mb.discovery.driven_joint.balance.force_balance import Nuisance
 from stochfric_mb.discovery.driven_joint.decision import findings, remarks
@@ -44,16 +45,15 @@ def test_a_zero_is_given_up_where_no_effect_that_leaves_it_alone_explains_as_muc
     """The zero and the asymmetry draw one constant: the zero would be off by eight of its deviations, the asymmetry by none."""
     asymmetric = pair(lambda q, v: coulomb(q, v) + 0.6)
     selector = selector_of(believing(asymmetric, mass=0.05, offset=0.08, mu_k=0.2))
-    current = selector.recalibrated
-    stage = selector._stage(current)
+    stage = selector._stage(selector.begin)
     alone = next(t for t in stage.trials if t.candidate.parameters == 1)
     poor = next(t for t in stage.trials if t.candidate.parameters == 2 and t.fit.rms > 1.2 * alone.fit.rms)
-    assert selector._released(current, dataclasses.replace(stage, trials=(poor, alone))) is None
+    assert selector._released(selector.begin, dataclasses.replace(stage, trials=(poor, alone))) is None
     assert alone.score > criteria.NAMED
     weak = dataclasses.replace(alone, score=0.9 * criteria.NAMED)  # what cannot be named itself is no rival
     for trials in ((poor,), (poor, weak)):
         selector = selector_of(believing(asymmetric, mass=0.05, offset=0.08, mu_k=0.2))
-        released = selector._released(selector.recalibrated, dataclasses.replace(stage, trials=trials))
+        released = selector._released(selector.begin, dataclasses.replace(stage, trials=trials))
         assert released is not None
         assert [number.name for number in released[0]] == ["offset"]
 
@@ -82,25 +82,26 @@ def test_weight_and_lever_of_a_payload_are_given_up_together(lever, names):
 @pytest.mark.parametrize(("mass", "stays"), [(2.0, False), (4.0, True)])
 def test_a_number_that_later_effects_explain_is_believed_again(mass, stays):
     selector = selector_of(pair(coulomb, mass=mass))
-    current = selector.recalibrated
-    belief = next(b for b in beliefs(current.model, selector._nuisances) if b.name == "mass")
-    model, wide = belief.given_up(current.model, selector._nuisances)
-    before, selector._nuisances = selector._nuisances, wide
-    _, released = selector._taken_back(selector._fit(model), [Released(belief, 50.0, 1.0, 0.5)])
+    begin = selector.begin
+    belief = next(b for b in beliefs(begin.current.model, begin.nuisances) if b.name == "mass")
+    model, wide = belief.given_up(begin.current.model, begin.nuisances)
+    given_up = selector._refitted(dataclasses.replace(begin, nuisances=wide), model)
+    after, released = selector._taken_back(given_up, [Released(belief, 50.0, 1.0, 0.5)])
     assert bool(released) is stays
-    assert (selector._nuisances == before) is not stays
+    assert (after.nuisances == begin.nuisances) is not stays
 
 
 @pytest.mark.parametrize("added", [(VISCOUS, SPRING), (VISCOUS,)])
 def test_a_further_effect_that_needs_what_is_not_believed_is_dropped(added):
     """The first one stays: of the whole answer adequacy decides."""
     selector = selector_of(pair(lambda q, v: coulomb(q, v) + v))
-    fitted = selector._fit(selector.recalibrated.model.plus(*added))
-    belief = next(b for b in beliefs(fitted.model, selector._nuisances) if b.name == "mass")
+    fitted = selector._refitted(selector.begin, selector.recalibrated.model.plus(*added)).current
+    belief = next(b for b in beliefs(fitted.model, selector.begin.nuisances) if b.name == "mass")
     pressed = dict(fitted.model.nuisances) | {"mass": belief.value + criteria.MOST_OFF * belief.deviation}
     final = dataclasses.replace(fitted, model=dataclasses.replace(fitted.model, nuisances=pressed))
     trials = [Trial(Candidate(e.kind, (e,), "", 1), fitted, 50.0, 0.0) for e in added]
-    after, effects = selector._without_pushing(final, trials)
+    at, effects = selector._without_pushing(dataclasses.replace(selector.begin, current=final), trials)
+    after = at.current
     assert [t.candidate.kind for t in effects] == [VISCOUS.kind]
     assert [e.kind for e in after.model.effects] == [VISCOUS.kind]
     assert (at_end(after.model, [belief]) is None) is (len(added) == 2)
@@ -116,7 +117,7 @@ def test_many_effects_have_to_leave_noise(count, left, stands):
     selected = dataclasses.replace(nothing, final=final, recalibrated=before, effects=trials)
     scores = {"recalibrated": Score(10.0, 10.0, None), "augmented": Score(left, left, None)}
     balances, model = tuple(selector._balances), nothing.recalibrated.model
-    place = PlaceOutcome("", selected, tuple(selector._nuisances), model, balances, balances, scores, 0.01)
+    place = PlaceOutcome("", selected, tuple(selector.begin.nuisances), model, balances, balances, scores, 0.01)
     assert bool(endless(place)) is not stands
     assert bool(inadequate(place)) is not stands
     assert criteria.SERIES == 3
@@ -133,7 +134,7 @@ def test_beside_strokes_drawn_anew_effects_have_to_explain_something_of_the_held
     scores = {"recalibrated": Score(10.0, 10.0, None), "augmented": Score(held_out, held_out, None)}
     balances, model = tuple(selector._balances), nothing.recalibrated.model
     random = SimpleNamespace(named=True)
-    place = PlaceOutcome("", selected, tuple(selector._nuisances), model, balances, balances, scores, 0.01, random=random)
+    place = PlaceOutcome("", selected, tuple(selector.begin.nuisances), model, balances, balances, scores, 0.01, random=random)
     assert bool(inadequate(place)) is not stands
 
 
@@ -149,7 +150,7 @@ def test_what_makes_forward_simulation_worse_does_not_stand_unless_the_loop_is_s
     selected = dataclasses.replace(nothing, effects=(trial,))
     balances, model = tuple(selector._balances), nothing.recalibrated.model
     scores = {"recalibrated": before, "augmented": after}
-    place = PlaceOutcome("", selected, tuple(selector._nuisances), model, balances, balances, scores, 0.01)
+    place = PlaceOutcome("", selected, tuple(selector.begin.nuisances), model, balances, balances, scores, 0.01)
     assert bool(inadequate(place)) is not stands
 
 
@@ -226,12 +227,12 @@ def test_when_most_is_missing_is_told_and_runs_in_which_nothing_slides_are_passe
 @pytest.mark.parametrize(("left", "drawn", "says"), [(2.3, False, True), (1.2, False, False), (2.3, True, False)])
 def test_names_that_leave_more_than_noise_say_so(monkeypatch, left, drawn, says):
     """Drag over part of a stroke was three names, with 3.5 times the noise left, and not a word of it."""
-    monkeypatch.setattr(remarks, "noise_floor", lambda *_: 1.0)
+    monkeypatch.setattr(joint_result, "noise_floor", lambda *_: 1.0)
     selected = SimpleNamespace(
         final=SimpleNamespace(rms=left, model=None), effects=("one",), left=(("speed and direction", 0.1),)
     )
     random = SimpleNamespace(accounted=drawn)
-    place = SimpleNamespace(selected=selected, random=random, runs=None, fit=(), nuisances=(), place="", thing="joint")
+    place = PlaceOutcome("", selected, (), None, (), (), {}, 0.01, random=random)
     said = remarks._more_missing(place)
     assert bool(said) is says
     assert not says or said[0].endswith("2.3 times the noise is left with what is named: more is missing; it depends on speed")
@@ -242,7 +243,7 @@ def test_a_number_that_data_take_far_from_what_is_stated_is_spoken_of(off, says)
     """A mass of 12 kg for 18.5 kg +- 10 % stood in a file alone."""
     selector = selector_of(pair(coulomb))
     nothing = selector.run()
-    believed = next(n for n in selector._nuisances if n.name == "mass")
+    believed = next(n for n in selector.begin.nuisances if n.name == "mass")
     values = nothing.final.values.copy()
     place = [k.name for k in nothing.final.free].index("mass")
     values[place] = believed.value + off * believed.deviation
@@ -250,7 +251,7 @@ def test_a_number_that_data_take_far_from_what_is_stated_is_spoken_of(off, says)
     balances, model = tuple(selector._balances), nothing.recalibrated.model
     selected = dataclasses.replace(nothing, final=final)
     scores = {"baseline": Score(1.0, None, None)}
-    outcome = PlaceOutcome("", selected, tuple(selector._nuisances), model, balances, balances, scores, 0.01)
+    outcome = PlaceOutcome("", selected, tuple(selector.begin.nuisances), model, balances, balances, scores, 0.01)
     said = [s for s in remarks.remarks([outcome]) if "stated standard deviations off from what is stated" in s]
     assert said == ([f"mass is {abs(off):.2g} stated standard deviations off from what is stated"] if says else [])
 
@@ -296,7 +297,7 @@ def test_a_form_that_mechanics_gives_has_to_explain_nearly_all(effect, left, sta
     selected = dataclasses.replace(nothing, final=final, recalibrated=before, effects=(trial,))
     scores = {"recalibrated": Score(10.0, 10.0, None), "augmented": Score(left, left, None)}
     balances, model = tuple(selector._balances), nothing.recalibrated.model
-    place = PlaceOutcome("", selected, tuple(selector._nuisances), model, balances, balances, scores, 0.005)
+    place = PlaceOutcome("", selected, tuple(selector.begin.nuisances), model, balances, balances, scores, 0.005)
     assert bool(inadequate(place)) is not stands
     assert criteria.EXPLAINED_BY_MECHANICS == 0.9
 
@@ -307,7 +308,7 @@ def test_a_stated_model_that_errs_by_many_times_the_friction_asks_for_units(erro
     selector = selector_of(pair(coulomb))  # 2 N of friction
     nothing = selector.run()
     balances, model, scores = tuple(selector._balances), selector.recalibrated.model, {"baseline": Score(error, None, None)}
-    place = PlaceOutcome("", nothing, tuple(selector._nuisances), model, balances, balances, scores, 0.01)
+    place = PlaceOutcome("", nothing, tuple(selector.begin.nuisances), model, balances, balances, scores, 0.01)
     assert any("check units" in s for s in remarks._far_off(place)) is says
     assert criteria.FAR_OFF == 10.0
 
@@ -320,10 +321,11 @@ def test_what_could_stand_in_the_place_of_a_number_is_told(stated, found):
         measured, scenario=dataclasses.replace(measured.scenario, uncertainty={"mass": 0.05, "offset": stated, "mu_k": 0.5})
     )
     selector = selector_of(measured)
-    offset = next(b for b in beliefs(selector.recalibrated.model, selector._nuisances) if b.name == "offset")
-    model, selector._nuisances = offset.given_up(selector.recalibrated.model, selector._nuisances)
-    final = selector._fit(model)
-    alike = selector._alike(final, [Released(offset, 50.0, 1.0, 0.1)], selector._state)
+    begin, stated_model = selector.begin, selector.recalibrated.model
+    offset = next(b for b in beliefs(stated_model, begin.nuisances) if b.name == "offset")
+    model, wide = offset.given_up(stated_model, begin.nuisances)
+    final = selector._refitted(dataclasses.replace(begin, nuisances=wide), model)
+    alike = selector._alike(final, [Released(offset, 50.0, 1.0, 0.1)])
     assert set(found) <= set(alike["constant_force"])
     assert bool(found) or not alike["constant_force"]
     assert "constant_force" not in alike["constant_force"]
@@ -338,8 +340,8 @@ def test_beside_an_effect_a_mass_may_be_more_and_not_less(mass, asked):
     within = dataclasses.replace(
         beside, model=dataclasses.replace(beside.model, nuisances={**beside.model.nuisances, "mass": 2.0})
     )
-    freed = beyond_beliefs(within, selector._balances, selector._nuisances, 0.1, beside=True, without=frozenset())
-    assert any(f.number.name == "mass" for f in freed) is asked
+    freed = beyond_beliefs(within, selector._balances, selector.begin.nuisances, 0.1, beside=True, without=frozenset())
+    assert any(f.name == "mass" for f in freed) is asked
 
 
 def test_a_share_of_a_number_that_is_zero_is_no_uncertainty_and_said_so():

@@ -9,7 +9,7 @@ from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.decision.selection import Selector
 from stochfric_mb.discovery.driven_joint.fit.fitting import fit
 from stochfric_mb.discovery.driven_joint.search import candidate_fits
-from stochfric_mb.discovery.driven_joint.search.candidate_fits import Beside, CandidateFits
+from stochfric_mb.discovery.driven_joint.search.candidate_fits import CandidateFits
 from stochfric_mb.discovery.driven_joint.search.candidates import candidates, span_of
 from stochfric_mb.discovery.driven_joint.search.first_order import FEWEST, prospect, prospects
 from stochfric_mb.discovery.driven_joint.source import source_of
@@ -28,8 +28,7 @@ def seen(friction):
     """Return selector, fit without effects, and the candidates beside it but loads that move by themselves."""
     source = source_of(pair(friction))
     selector = Selector(source.balances("", "fit", 0.0), source.nuisances(""), source.stated(""))
-    beside = Beside(selector.recalibrated, selector._nuisances, selector._noise, frozenset())
-    return selector, beside, selector._candidates.others(beside)
+    return selector, selector.begin, selector._candidates.others(selector.begin)
 
 
 @pytest.mark.parametrize("name", RECORDS)
@@ -54,9 +53,9 @@ def test_a_number_in_which_friction_is_linear_is_worth_what_its_fit_is():
     viscous = next(c for c in candidates(span, ()) if c.kind == "viscous_friction" and c.parameters == 1)
     expected = prospect(viscous, (), current, selector._balances)
     fitted = next(f for c, f in found.fits if c == viscous)
-    loose = [dataclasses.replace(n, deviation=1.0e3 * n.deviation) for n in selector._nuisances]
+    loose = [dataclasses.replace(n, deviation=1.0e3 * n.deviation) for n in beside.nuisances]
     free = dataclasses.replace(fitted.model, level=(fitted.model.level[0], np.inf))
-    rest = np.concatenate(fit(free, selector._balances, loose, noise=selector._noise).remainders)
+    rest = np.concatenate(fit(free, selector._balances, loose, noise=beside.noise).remainders)
     assert np.sqrt(np.mean(expected.left**2)) == pytest.approx(np.sqrt(np.mean(rest**2)), rel=1.0e-3)
 
 

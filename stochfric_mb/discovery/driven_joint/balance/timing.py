@@ -18,8 +18,8 @@ import numpy.typing as npt
 
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
 from stochfric_mb.discovery.driven_joint.balance.weak_form import FEWEST
-from stochfric_mb.discovery.driven_joint.fit.gains import left_by
 from stochfric_mb.discovery.inference.intervals import confidence_interval
+from stochfric_mb.discovery.inference.least_squares import left_by
 from stochfric_mb.discovery.inference.noise import independent_count
 from stochfric_mb.errors import InputError
 

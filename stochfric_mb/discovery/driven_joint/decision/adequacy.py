@@ -11,7 +11,7 @@ from stochfric_mb.discovery.driven_joint.decision.smooth_dependence import SIGNE
 from stochfric_mb.discovery.driven_joint.fit.beliefs import at_end, beliefs
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
 from stochfric_mb.discovery.driven_joint.search.candidates import stated_forms
-from stochfric_mb.discovery.driven_joint.simulation.scores import FLOOR, closed_share, noise_floor
+from stochfric_mb.discovery.driven_joint.simulation.scores import closed_share
 from stochfric_mb.discovery.inference.free_parameter import MECHANISM
 from stochfric_mb.effects import effect_class
 from stochfric_mb.effects.contract import OF_MECHANISM
@@ -104,11 +104,10 @@ def endless(place: PlaceOutcome) -> str:
     They draw what is there as terms of a series would.
     """
     selected = place.selected
-    noise = noise_floor(selected.final.model, place.fit, place.nuisances)
     names = len(selected.effects) + len({finding(number.name) for number in selected.released})
-    if names < criteria.SERIES or selected.final.rms < FLOOR * noise:
+    if names < criteria.SERIES or place.leaves_noise:
         return ""
-    return f"{names} names together leave {selected.final.rms / noise:.1f} times the noise"
+    return f"{names} names together leave {selected.final.rms / place.noise:.1f} times the noise"
 
 
 def _of_another_form(place: PlaceOutcome) -> str:
@@ -121,9 +120,8 @@ def _of_another_form(place: PlaceOutcome) -> str:
     found = [(t.score, effect_class(t.candidate.kind).group == OF_MECHANISM, t.candidate.kind) for t in selected.effects]
     found += [(r.score, r.belief.owner == MECHANISM, finding(r.name)) for r in selected.released]
     _, of_mechanism, kind = max(found)
-    noise = noise_floor(selected.final.model, place.fit, place.nuisances)
     explained = _gain(place)
-    if not of_mechanism or selected.final.rms < FLOOR * noise or explained >= criteria.EXPLAINED_BY_MECHANICS:
+    if not of_mechanism or place.leaves_noise or explained >= criteria.EXPLAINED_BY_MECHANICS:
         return ""
     return f"{kind} leaves {100.0 * (1.0 - explained):.0f} % of the squared error on the held-out runs, and its form is exact"
 
@@ -134,10 +132,10 @@ def _worse_at_most_times(place: PlaceOutcome) -> str:
     What is right is right at most times. Effects that trade what was explained for what comes in bursts stand for something
     else, however much of the square they take away; within noise there is nothing to trade.
     """
-    before, after = place.selected.recalibrated, place.selected.final
-    if after.rms < FLOOR * noise_floor(after.model, place.fit, place.nuisances):
+    if place.leaves_noise:
         return ""
-    typical = [float(np.median(np.abs(np.concatenate(f.remainders)))) for f in (before, after)]
+    fits = place.selected.recalibrated, place.selected.final
+    typical = [float(np.median(np.abs(np.concatenate(f.remainders)))) for f in fits]
     if typical[1] < (1.0 + criteria.MATERIAL) * typical[0]:
         return ""
     return f"the median error rises from {typical[0]:.3g} to {typical[1]:.3g} {place.fit[0].unit} with it"
@@ -151,17 +149,16 @@ def _imitated(place: PlaceOutcome) -> str:
 
 def _plainly_left(place: PlaceOutcome) -> str:
     """Return on what that is not its own the error plainly depends which the selected effects leave; empty: on nothing."""
+    if place.leaves_noise:
+        return ""
     selected = place.selected
     own = {t.candidate.where for t in selected.effects}
-    noise = noise_floor(selected.final.model, place.fit, place.nuisances)
     remains = (selected.final.rms / selected.recalibrated.rms) ** 2
-    if selected.final.rms < FLOOR * noise:
-        return ""
     others = [
         (axis, remains * (1.0 - (1.0 - gain) ** 2)) for axis, gain in selected.left if axis.removesuffix(SIGNED) not in own
     ]
     axis, share = max(others, key=lambda o: o[1], default=("", 0.0))
     if share < criteria.PLAINLY_LEFT:
         return ""
-    how = f"{selected.final.rms / noise:.1f} times the noise is left, {100.0 * share:.0f} % of the squared error"
+    how = f"{selected.final.rms / place.noise:.1f} times the noise is left, {100.0 * share:.0f} % of the squared error"
     return f"{how} depends on {axis}"

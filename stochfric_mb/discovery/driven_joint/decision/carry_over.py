@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.decision.adequacy import at_bound, drawn_by_two, inadequate
+from stochfric_mb.discovery.driven_joint.decision.smooth_dependence import ALONG
 from stochfric_mb.discovery.driven_joint.fit.evidence import settings_of
 from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, fit, prior_weight
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
@@ -109,7 +110,7 @@ def runs_apart(place: PlaceOutcome) -> bool:
 
     What differs by less, for no known reason, is said in a note.
     """
-    if any(drawn is not None and drawn.accounted for drawn in (place.random, place.runs)):
+    if place.drawn:
         return False
     within, between = _parts(place)
     return float(np.std(between)) > max(_largest_zero(place), FLOOR * float(np.std(within)))
@@ -146,9 +147,8 @@ def with_unnamed(dataset: Dataset, place: PlaceOutcome) -> PlaceOutcome:
     """Return the outcome at a place with an unnamed term in its model, if nothing has a name there and one carries over."""
     selected = place.selected
     named = selected.effects or selected.released or place.late or place.idle
-    drawn = any(s is not None and s.accounted for s in (place.random, place.runs))
     rivals = [(SMOOTH[axis], evidence) for axis, evidence in selected.stages[-1].competitors if axis in SMOOTH]
-    if named or drawn or not rivals or rivals[0][1] <= 0.0 or not (selected.unknown or lacks(dataset, place)):
+    if named or place.drawn or not rivals or rivals[0][1] <= 0.0 or not (selected.unknown or lacks(dataset, place)):
         return place
     axis, evidence = rivals[0]
     fitted = _fitted(place, axis)
@@ -163,10 +163,7 @@ def with_unnamed(dataset: Dataset, place: PlaceOutcome) -> PlaceOutcome:
 def _fitted(place: PlaceOutcome, axis: str) -> JointFit:
     """Return the final model of a place with a table along an axis, fitted."""
     final = place.selected.final
-    visited = {
-        "position": lambda s: s.position, "speed": lambda s: np.abs(s.velocity), "time": lambda s: s.time,
-    }[axis]  # fmt: skip
-    values = np.concatenate([visited(s)[s.window.centres][s.sliding] for s in place.fit])
+    values = np.concatenate([ALONG[axis](s, i)[s.window.centres][s.sliding] for i, s in enumerate(place.fit)])
     low, high = (float(np.quantile(values, q)) for q in ENDS)
     start = {f"change_{i}": BEGIN * final.model.law.mu_k for i in range(1, KNOTS)}
     term = make_effect(kinds_with(ANONYMOUS)[0], axis=axis, low=low, high=high, static_share=1.0, **start)

@@ -132,7 +132,7 @@ def released_numbers(place: PlaceOutcome) -> list[EffectEstimate]:
 def _size(place: PlaceOutcome, belief: Belief) -> Interval:
     """Return a number of law or mechanism with its interval."""
     fit = place.selected.final
-    one = next(k for k in fit.free if (k.owner, k.name) == (belief.owner, belief.name))
+    one = fit.free[fit.at(belief.owner, belief.name)[0]]
     deviation = fit.deviation(belief.owner, belief.name)
     return confidence_interval(belief.in_model(fit.model), deviation, one.unit, one.low, one.high)
 

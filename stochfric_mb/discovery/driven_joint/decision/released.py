@@ -6,7 +6,6 @@ import dataclasses
 from collections.abc import Sequence
 
 import numpy as np
-import numpy.typing as npt
 
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.balance.force_balance import (
@@ -20,11 +19,10 @@ from stochfric_mb.discovery.driven_joint.balance.force_balance import (
 from stochfric_mb.discovery.driven_joint.fit.beliefs import Belief, beliefs
 from stochfric_mb.discovery.driven_joint.fit.evidence import evidence, settings_of
 from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, settled
-from stochfric_mb.discovery.inference.free_parameter import MECHANISM, FreeParameter
+from stochfric_mb.discovery.inference.free_parameter import MECHANISM
+from stochfric_mb.discovery.inference.least_squares import left_by
 from stochfric_mb.effects import kind_with_signature
 from stochfric_mb.effects.traits import MORE_DAMPING, OTHER_AREA
-
-Array = npt.NDArray[np.float64]
 
 INERTIAL = ("mass", "length", "inertia", "armature")
 """Numbers of what moves."""
@@ -68,19 +66,28 @@ class Released:
 class Freed:
     """A fit in which a number may be anything, or two that one thing moves."""
 
-    number: Released
-    """The number."""
+    beliefs: tuple[Belief, ...]
+    """The number, or two, and what was believed."""
+    score: float
+    """Evidence, as of a trial."""
     fit: JointFit
     """The fit."""
     nuisances: list[Nuisance]
     """Numbers of the mechanism, as they are believed in it."""
-    also: tuple[Released, ...] = ()
-    """A further number that may be anything in it, which one thing moves together with the first."""
+
+    @property
+    def name(self) -> str:
+        """Name of the first number."""
+        return self.beliefs[0].name
 
     @property
     def count(self) -> int:
         """How many numbers may be anything."""
-        return 1 + len(self.also)
+        return len(self.beliefs)
+
+    def released(self, within: JointFit) -> list[Released]:
+        """Return the numbers as findings, beside the fit with them within their beliefs."""
+        return [Released(b, self.score, within.rms, self.fit.rms) for b in self.beliefs]
 
 
 def finding(name: str) -> str:
@@ -126,11 +133,10 @@ def beyond_beliefs(
             continue
         if any(b in heavier and b.off(fitted.model) < 0.0 for b in several):
             continue
-        cost = len(several) * np.log(max(fitted.independent, 4.0)) + 2.0 * np.log(len(believed) + len(exact))
+        cost = len(several) * np.log(fitted.n) + 2.0 * np.log(len(believed) + len(exact))
         score = evidence(current, fitted, fitted, settings) - float(cost)
-        first, *others = (Released(b, score, current.rms, fitted.rms) for b in several)
-        freed.append(Freed(first, fitted, wide, tuple(others)))
-    return sorted(freed, key=lambda f: -f.number.score)
+        freed.append(Freed(several, score, fitted, wide))
+    return sorted(freed, key=lambda f: -f.score)
 
 
 def _together(asked: Sequence[Belief], pressing: Sequence[Belief]) -> list[tuple[Belief, ...]]:
@@ -155,12 +161,9 @@ def _factor_of_the_drive(balances: Sequence[ForceBalance], nuisances: Sequence[N
 
 def _at_an_end(belief: Belief, fitted: JointFit) -> bool:
     """Return whether a number is as far as it can be at all, a mass of 0 for instance: there it stands for something else."""
-    one, value = next((k, x) for k, x in zip(fitted.free, fitted.values, strict=True) if _is(k, belief))
+    at = fitted.at(belief.owner, belief.name)[0]
+    one, value = fitted.free[at], fitted.values[at]
     return min(value - one.low, one.high - value) < AT_AN_END * belief.deviation
-
-
-def _is(one: FreeParameter, belief: Belief) -> bool:
-    return (one.owner, one.name) == (belief.owner, belief.name)
 
 
 def _driven(balances: Sequence[ForceBalance], nuisances: Sequence[Nuisance]) -> bool:
@@ -172,6 +175,5 @@ def _driven(balances: Sequence[ForceBalance], nuisances: Sequence[Nuisance]) -> 
         return True
     columns = np.concatenate([np.column_stack([s.columns[n] for n in names if n in s.columns]) for s in balances])
     driven = np.concatenate([s.driven for s in balances])
-    scaled = columns / np.maximum(np.linalg.norm(columns, axis=0), 1.0e-300)
-    rest = driven - scaled @ np.linalg.lstsq(scaled, driven, rcond=None)[0]
+    rest = left_by(columns, driven, None)
     return float(np.linalg.norm(rest)) > UNDRIVEN * float(np.linalg.norm(driven))

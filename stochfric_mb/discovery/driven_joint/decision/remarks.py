@@ -14,7 +14,7 @@ from stochfric_mb.discovery.driven_joint.decision.smooth_dependence import SIGNE
 from stochfric_mb.discovery.driven_joint.fit.evidence import scatter, settings_of
 from stochfric_mb.discovery.driven_joint.fit.gains import hidden_share
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
-from stochfric_mb.discovery.driven_joint.simulation.scores import AHEAD, FLOOR, noise_floor
+from stochfric_mb.discovery.driven_joint.simulation.scores import AHEAD
 from stochfric_mb.effects import words_of
 from stochfric_mb.measurement.scales import load_in_kilograms
 
@@ -96,14 +96,12 @@ def _in_kilograms(place: PlaceOutcome) -> list[str]:
 
 def _more_missing(place: PlaceOutcome) -> list[str]:
     """Return a remark if what is named, effects and scatter, leaves more than noise."""
-    final = place.selected.final
-    drawn = any(s is not None and s.accounted for s in (place.random, place.runs))
-    noise = noise_floor(final.model, place.fit, place.nuisances)
-    if not place.selected.effects or drawn or final.rms < FLOOR * noise:
+    if not place.selected.effects or place.drawn or place.leaves_noise:
         return []
     axes = ", ".join(axis.removesuffix(SIGNED) for axis, _ in place.selected.left)
+    times = place.selected.final.rms / place.noise
     return [
-        f"{final.rms / noise:.1f} times the noise is left{in_place(place)} with what is named: more is missing"
+        f"{times:.1f} times the noise is left{in_place(place)} with what is named: more is missing"
         + (f"; it depends on {axes}" if axes else "")
     ]
 
@@ -111,7 +109,7 @@ def _more_missing(place: PlaceOutcome) -> list[str]:
 def _between_settings(place: PlaceOutcome) -> list[str]:
     """Return a remark if what is left stays the same in a run and direction."""
     fit, settings = place.selected.final, settings_of(place.fit)
-    rest, n = np.concatenate(fit.remainders), max(place.selected.final.independent, 4.0)
+    rest, n = np.concatenate(fit.remainders), fit.n
     seen, none = scatter(rest, settings, n), scatter(rest, settings, n, ratios=np.zeros(1))
     if none.deviance - seen.deviance < PLAIN or (place.runs is not None and place.runs.accounted):
         return []

@@ -7,7 +7,6 @@ import functools
 from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
-import numpy.typing as npt
 from scipy.stats import f as fisher
 
 from stochfric_mb.discovery import criteria
@@ -24,8 +23,6 @@ from stochfric_mb.discovery.driven_joint.fit.wave_scan import tried
 from stochfric_mb.discovery.driven_joint.search.candidate_fits import Beside, CandidateFits, Found, is_none, may_be_zero
 from stochfric_mb.discovery.driven_joint.search.candidates import Candidate
 from stochfric_mb.discovery.inference.paired import Paired
-
-Array = npt.NDArray[np.float64]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -106,12 +103,6 @@ class Selected:
         return (*(t.candidate.kind for t in self.effects), *(r.name for r in self.released))
 
 
-State = tuple[frozenset[str], float, list[Nuisance]]
-"""What a selection leaves out, how beliefs weigh in it, and the numbers of the mechanism as they are believed."""
-Fixed = Sequence[tuple[int, str]]
-"""Numbers of effects, by their places in a model and names, that a fit leaves as they are."""
-
-
 class Selector:
     """Selection at one joint."""
 
@@ -122,60 +113,59 @@ class Selector:
         start: JointModel,
         progress: Callable[[str], None] | None = None,
     ) -> None:
-        self._balances, self._nuisances = list(balances), list(nuisances)
-        self._without: frozenset[str] = frozenset()
+        self._balances = list(balances)
         self._tell = progress or (lambda _: None)
         self._candidates = CandidateFits(self._balances, self._tell)
         self._settings, self._smooth, self._pairs = settings_of(balances), SmoothDependences(balances), confounded(balances)
-        self.recalibrated, self._noise = settled(start, balances, nuisances, noise=_typical(balances))
-        self._begin = self._noise, self._nuisances
+        typical = float(np.std(np.concatenate([s.driven[s.sliding] for s in balances])))
+        self.recalibrated, noise = settled(start, balances, nuisances, noise=typical)
+        self.begin = Beside(self.recalibrated, list(nuisances), noise, frozenset())
+        """The fit of the stated model, with nothing left out."""
 
-    def _fit(self, model: JointModel, *, refined: bool = True, fixed: Fixed = ()) -> JointFit:
-        return fit(model, self._balances, self._nuisances, noise=self._noise, refined=refined, fixed=fixed)
+    def _refitted(self, at: Beside, model: JointModel) -> Beside:
+        fitted = fit(model, self._balances, at.nuisances, noise=at.noise, refined=True)
+        return dataclasses.replace(at, current=fitted)
 
     def run(self, without: frozenset[str] = frozenset()) -> Selected:
         """Return what is selected, without some kinds of effects and numbers of the mechanism."""
-        self._without, (self._noise, self._nuisances) = without, self._begin
-        current = self.recalibrated
+        at = dataclasses.replace(self.begin, without=without)
         effects: list[Trial] = []
         stages: list[Stage] = []
         released: list[Released] = []
         while len(effects) < criteria.MOST_EFFECTS:
             self._tell(f"effect {len(effects) + 1}")
-            stage = self._stage(current)
-            freed = self._released(current, stage)
+            stage = self._stage(at)
+            freed = self._released(at, stage)
             if freed is not None:
-                numbers, current = freed
+                numbers, at = freed
                 released += numbers
                 continue
             stages.append(stage)
             if not stage.accepted:
                 break
             effects.append(stage.trials[0])
-            self._noise = prior_weight(stage.trials[0].fit)
-            current = self._fit(stage.trials[0].fit.model)
-            self._noise = prior_weight(current)
-            current, effects = self._re_examined(current, effects)
-            current, released = self._taken_back(current, released)
-        final, effects = self._without_pushing(*self._without_zero(self._fit(current.model), effects))
-        unknown = self._unknown(stages[-1]) if not stages[-1].accepted else ("", 0.0)
-        left = (unknown, self._smooth.together(final, self._noise) if effects or released else ("", 0.0))
-        imitated = left[1][0] if any(self._imitated(final, i, t, left[1][0]) for i, t in enumerate(effects)) else ""
+            at = self._refitted(dataclasses.replace(at, noise=prior_weight(stage.trials[0].fit)), stage.trials[0].fit.model)
+            at, effects = self._re_examined(dataclasses.replace(at, noise=prior_weight(at.current)), effects)
+            at, released = self._taken_back(at, released)
+        at, effects = self._without_pushing(*self._without_zero(self._refitted(at, at.current.model), effects))
+        unknown = self._unknown(stages[-1], at.noise) if not stages[-1].accepted else ("", 0.0)
+        left = (unknown, self._smooth.together(at.current, at.noise) if effects or released else ("", 0.0))
+        imitated = left[1][0] if any(self._imitated(at, i, t, left[1][0]) for i, t in enumerate(effects)) else ""
         return Selected(
             self.recalibrated,
-            final,
+            at.current,
             tuple(effects),
-            functools.partial(self._equivalents, final, tuple(t.candidate.parameters for t in effects), self._state),
-            functools.partial(self._alike, final, tuple(released), self._state),
+            functools.partial(self._equivalents, at, tuple(t.candidate.parameters for t in effects)),
+            functools.partial(self._alike, at, tuple(released)),
             tuple(stages),
             unknown[0],
             tuple((axis, gain) for axis, gain in left if axis),
             tuple(released),
-            tuple(self._nuisances),
+            tuple(at.nuisances),
             imitated,
         )
 
-    def _imitated(self, final: JointFit, number: int, trial: Trial, axis: str) -> bool:
+    def _imitated(self, at: Beside, number: int, trial: Trial, axis: str) -> bool:
         """Return whether an effect of other conditions explains nothing beside two on which what is left depends together.
 
         The motion comes back, and the clock goes on with it: a course in time of many pieces can draw a part of what the state
@@ -183,23 +173,23 @@ class Selector:
         """
         if not axis or trial.candidate.where in axis.removesuffix(SIGNED).split(TIMES):
             return False
-        effects = final.model.effects
-        own = len(self.recalibrated.model.effects) + number
-        without = self._fit(dataclasses.replace(final.model, effects=tuple(e for i, e in enumerate(effects) if i != own)))
+        final, own = at.current, len(self.recalibrated.model.effects) + number
+        others = tuple(e for i, e in enumerate(final.model.effects) if i != own)
+        without = self._refitted(at, dataclasses.replace(final.model, effects=others)).current
         numbers = _numbers(without, trial.candidate, final)
-        keeps = self._smooth.left_to(final, without, self._noise, axis)
-        return keeps - numbers * float(np.log(max(final.independent, 4.0))) < criteria.NAMED
+        keeps = self._smooth.left_to(final, without, at.noise, axis)
+        return keeps - numbers * float(np.log(final.n)) < criteria.NAMED
 
-    def _released(self, current: JointFit, stage: Stage) -> tuple[list[Released], JointFit] | None:
+    def _released(self, at: Beside, stage: Stage) -> tuple[list[Released], Beside] | None:
         """Return the number that is off by more than its uncertainty, or two, if that explains more than any effect.
 
         It is a finding of its own, a payload for instance: within its belief it would hide behind what it cannot explain. As
         effects do, it has to foretell parts of the record that were left out.
         """
-        freed = self._freed(current)
+        current, freed = at.current, self._freed(at)
         # all are judged by the same count of independent windows: that of the best fit
         finest = min((*(t.fit for t in stage.trials), *(f.fit for f in freed)), key=lambda f: f.rms)
-        n = max(finest.independent, 4.0)
+        n = finest.n
 
         def worth(fitted: JointFit, numbers: int) -> float:
             return evidence(current, fitted, finest, self._settings) - numbers * float(np.log(n))
@@ -209,65 +199,67 @@ class Selector:
         rivals = [(t.fit, _numbers(current, t.candidate, t.fit)) for t in stage.trials if t.score > criteria.NAMED]
         needs = (worth(f, numbers) + (criteria.TIE if numbers <= 1 else -criteria.TIE) for f, numbers in rivals)
         enough = max(needs, default=-np.inf)
-        named = [f for f in freed if f.number.score >= criteria.NAMED and worth(f.fit, f.count) >= enough]
-        best = next((f for f in named if self._foretells(current, f)), None)
+        named = [f for f in freed if f.score >= criteria.NAMED and worth(f.fit, f.count) >= enough]
+        best = next((f for f in named if self._foretells(at, f)), None)
         if best is None:
             return None
-        self._nuisances, self._noise = best.nuisances, prior_weight(best.fit)
-        return [best.number, *best.also], self._fit(best.fit.model)
+        at = dataclasses.replace(at, nuisances=best.nuisances, noise=prior_weight(best.fit))
+        return best.released(current), self._refitted(at, best.fit.model)
 
-    def _taken_back(self, current: JointFit, released: list[Released]) -> tuple[JointFit, list[Released]]:
+    def _taken_back(self, at: Beside, released: list[Released]) -> tuple[Beside, list[Released]]:
         """Believe again numbers that effects found after them explain: what is left of their evidence no longer names them."""
         for number in released:
-            model, nuisances = number.belief.held(current.model, self._nuisances)
-            fitted, noise = settled(model, self._balances, nuisances, noise=self._noise)
-            score = evidence(fitted, current, current, self._settings) - float(np.log(max(current.independent, 4.0)))
+            current = at.current
+            model, nuisances = number.belief.held(current.model, at.nuisances)
+            fitted, noise = settled(model, self._balances, nuisances, noise=at.noise)
+            score = evidence(fitted, current, current, self._settings) - float(np.log(current.n))
             if score < criteria.NAMED:
-                self._nuisances, self._noise, current = nuisances, noise, fitted
+                at = dataclasses.replace(at, current=fitted, nuisances=nuisances, noise=noise)
                 released = [r for r in released if r is not number]
-        return current, released
+        return at, released
 
-    def _foretells(self, current: JointFit, freed: Freed) -> bool:
+    def _foretells(self, at: Beside, freed: Freed) -> bool:
         """Return whether a number beyond its belief predicts parts that were left out better, by a material part."""
-        noise = min(self._noise, prior_weight(freed.fit))
-        models = current.model, freed.fit.model
+        noise = min(at.noise, prior_weight(freed.fit))
+        models = at.current.model, freed.fit.model
         parts = witnesses(self._balances)
-        seen = compared(*models, self._balances, self._nuisances, noise, parts, freed.nuisances)
+        seen = compared(*models, self._balances, at.nuisances, noise, parts, freed.nuisances)
         return seen.rms_gain > criteria.MATERIAL and seen.share_better >= criteria.BETTER
 
-    def _freed(self, current: JointFit) -> list[Freed]:
-        beside = len(current.model.effects) > len(self.recalibrated.model.effects)
-        return beyond_beliefs(current, self._balances, self._nuisances, self._noise, beside=beside, without=self._without)
+    def _freed(self, at: Beside) -> list[Freed]:
+        beside = len(at.current.model.effects) > len(self.recalibrated.model.effects)
+        return beyond_beliefs(at.current, self._balances, at.nuisances, at.noise, beside=beside, without=at.without)
 
-    def _without_zero(self, final: JointFit, effects: list[Trial]) -> tuple[JointFit, list[Trial]]:
+    def _without_zero(self, at: Beside, effects: list[Trial]) -> tuple[Beside, list[Trial]]:
         """Drop effects that are none, or may be, beside those selected after them: nothing is said by them."""
         while True:
+            final = at.current
             first = len(final.model.effects) - len(effects)
-            at = range(len(effects))
-            empty = next((i for i in at if may_be_zero(final, first + i) or is_none(final, first + i)), None)
+            each = range(len(effects))
+            empty = next((i for i in each if may_be_zero(final, first + i) or is_none(final, first + i)), None)
             if empty is None:
-                return final, effects
+                return at, effects
             others = tuple(e for i, e in enumerate(final.model.effects) if i != first + empty)
-            final = self._fit(dataclasses.replace(final.model, effects=others))
+            at = self._refitted(at, dataclasses.replace(final.model, effects=others))
             effects = [t for i, t in enumerate(effects) if i != empty]
 
-    def _without_pushing(self, final: JointFit, effects: list[Trial]) -> tuple[JointFit, list[Trial]]:
+    def _without_pushing(self, at: Beside, effects: list[Trial]) -> tuple[Beside, list[Trial]]:
         """Drop further effects that need a number as far off as beliefs give way, where those before them leave it within."""
-        believed = beliefs(final.model, self._nuisances)
-        shorter, kept = final, effects
-        while at_end(shorter.model, believed) is not None and len(kept) > 1:
-            shorter, kept = self._fit(dataclasses.replace(shorter.model, effects=shorter.model.effects[:-1])), kept[:-1]
-        return (final, effects) if at_end(shorter.model, believed) is not None else (shorter, kept)
+        believed = beliefs(at.current.model, at.nuisances)
+        shorter, kept = at, effects
+        while at_end(model := shorter.current.model, believed) is not None and len(kept) > 1:
+            shorter, kept = self._refitted(shorter, dataclasses.replace(model, effects=model.effects[:-1])), kept[:-1]
+        return (at, effects) if at_end(model, believed) is not None else (shorter, kept)
 
-    def _stage(self, current: JointFit) -> Stage:
-        found = self._found(current)
+    def _stage(self, at: Beside) -> Stage:
+        current, found = at.current, self._found(at)
         trials = self._scored(current, found)
-        rivals = self._smooth.scores(current, trials[0].fit, self._noise)
+        rivals = self._smooth.scores(current, trials[0].fit, at.noise)
         models = current.model, trials[0].fit.model
         phased = len(models[1].own) > len(models[0].own) and len(self._balances) > 1
         parts = each_run(self._balances) if phased else witnesses(self._balances)
-        noise = min(self._noise, prior_weight(trials[0].fit))
-        inside = compared(*models, self._balances, self._nuisances, noise, parts)
+        noise = min(at.noise, prior_weight(trials[0].fit))
+        inside = compared(*models, self._balances, at.nuisances, noise, parts)
         better = inside.share_better > criteria.BETTER if phased else inside.share_better >= criteria.BETTER
         enough = (
             trials[0].score > criteria.NAMED
@@ -276,42 +268,41 @@ class Selector:
         )
         repeats = None
         if not enough and len(parts := strokes(self._balances)) >= criteria.FEWEST_STROKES:
-            repeats = compared(*models, self._balances, self._nuisances, self._noise, parts)
+            repeats = compared(*models, self._balances, at.nuisances, at.noise, parts)
             questions = len({t.candidate.where for t in trials})  # effects along one axis ask nearly the same
             repeats = dataclasses.replace(repeats, p_value=min(1.0, repeats.p_value * questions))
             enough = (
                 repeats.rms_gain > criteria.MATERIAL
                 and repeats.p_value < criteria.STROKES_BY_CHANCE
-                and self._predicted_better(*models)
+                and self._predicted_better(at, trials[0].fit.model)
             )
         return Stage(current, tuple(trials), tuple(rivals), inside, repeats, enough, found.faint)
 
-    def _found(self, current: JointFit) -> Found:
+    def _found(self, at: Beside) -> Found:
         """Return the candidates that the model does not have yet, fitted.
 
         A load that moves by itself is looked for where all other candidates leave more than noise: it can take noise of the
         acceleration away, whether there is such a load or not. Its force takes long to work out: it is looked for first, and
         again where nothing else has a name.
         """
-        beside = Beside(current, self._nuisances, self._noise, self._without)
-        found = self._candidates.others(beside)
+        current, found = at.current, self._candidates.others(at)
         first = len(current.model.effects) == len(self.recalibrated.model.effects)
         asked = first or self._scored(current, found)[0].score <= criteria.NAMED
-        if asked and self._candidates.leaves_more_than_noise(found, current, self._nuisances):
-            loads = self._candidates.loads(beside)
+        if asked and self._candidates.leaves_more_than_noise(found, at):
+            loads = self._candidates.loads(at)
             found = Found(found.fits + loads.fits, found.faint)
         return found
 
-    def _predicted_better(self, plain: JointModel, richer: JointModel) -> bool:
+    def _predicted_better(self, at: Beside, richer: JointModel) -> bool:
         """Return whether each half of the record, left out, is predicted better by the richer model by a material part."""
         halves = blocks(self._balances, 2)
-        seen = [compared(plain, richer, self._balances, self._nuisances, self._noise, [half]) for half in halves]
+        seen = [compared(at.current.model, richer, self._balances, at.nuisances, at.noise, [half]) for half in halves]
         return min(s.rms_gain for s in seen) > criteria.MATERIAL
 
     def _scored(self, current: JointFit, found: Found) -> list[Trial]:
         # all are judged by the same count of independent windows: that of the best fit
         best = min((f for _, f in found.fits), key=lambda f: f.rms)
-        n = max(best.independent, 4.0)
+        n = best.n
         trials = [self._trial(current, c, f, best, n, found.asked) for c, f in found.fits]
         return simplest_first(sorted(trials, key=lambda t: -t.score), self._pairs)
 
@@ -324,51 +315,45 @@ class Selector:
         chance = float(fisher.sf((ratio - 1.0) * spare / p, p, spare))
         return Trial(candidate, fitted, float(score), min(1.0, chance * grid))
 
-    def _re_examined(self, current: JointFit, effects: list[Trial]) -> tuple[JointFit, list[Trial]]:
+    def _re_examined(self, at: Beside, effects: list[Trial]) -> tuple[Beside, list[Trial]]:
         """Drop effects that later ones have made superfluous."""
         for trial in effects[:-1]:
             if trial.score < criteria.NAMED:  # taken for what it is worth on strokes left out
                 continue
-            kind = trial.candidate.kind
+            kind, current = trial.candidate.kind, at.current
             without = dataclasses.replace(current.model, effects=tuple(e for e in current.model.effects if e.kind != kind))
-            fitted, _ = settled(without, self._balances, self._nuisances, noise=self._noise)
-            n = max(current.independent, 4.0)
-            score = evidence(fitted, current, current, self._settings) - trial.candidate.parameters * np.log(n)
+            fitted, _ = settled(without, self._balances, at.nuisances, noise=at.noise)
+            score = evidence(fitted, current, current, self._settings) - trial.candidate.parameters * np.log(current.n)
             if score < criteria.NAMED:
-                current, effects = fitted, [t for t in effects if t.candidate.kind != kind]
-        return current, effects
+                at, effects = dataclasses.replace(at, current=fitted), [t for t in effects if t.candidate.kind != kind]
+        return at, effects
 
-    @property
-    def _state(self) -> State:
-        return self._without, self._noise, self._nuisances
-
-    def _equivalents(self, final: JointFit, sizes: Sequence[int], state: State) -> tuple[tuple[str, ...], ...]:
-        """Return what could stand in the place of each effect of the final model, of so many numbers, as things then stood."""
-        self._without, self._noise, self._nuisances = state
-        first = len(final.model.effects) - len(sizes)
+    def _equivalents(self, at: Beside, sizes: Sequence[int]) -> tuple[tuple[str, ...], ...]:
+        """Return what could stand in the place of each effect of the final model, of so many numbers."""
+        model = at.current.model
         found: list[tuple[str, ...]] = []
-        for own, size in zip(final.model.effects[first:], sizes, strict=True):
-            others = tuple(e for e in final.model.effects if e is not own)
-            without = self._fit(dataclasses.replace(final.model, effects=others))
-            found.append(self._standing_in(final, without, size, own.kind))
+        for own, size in zip(model.effects[len(model.effects) - len(sizes) :], sizes, strict=True):
+            others = tuple(e for e in model.effects if e is not own)
+            without = self._refitted(at, dataclasses.replace(model, effects=others))
+            found.append(self._standing_in(at.current, without, size, own.kind))
         return tuple(found)
 
-    def _alike(self, final: JointFit, released: Sequence[Released], state: State) -> dict[str, tuple[str, ...]]:
+    def _alike(self, at: Beside, released: Sequence[Released]) -> dict[str, tuple[str, ...]]:
         """Return what could stand in the place of each finding of numbers beyond their beliefs, by its name."""
         found: dict[str, tuple[str, ...]] = {}
         for name in dict.fromkeys(finding(r.name) for r in released):
-            self._without, self._noise, self._nuisances = state
-            numbers, model = [r.belief for r in released if finding(r.name) == name], final.model
+            numbers = [r.belief for r in released if finding(r.name) == name]
+            model, nuisances = at.current.model, at.nuisances
             for belief in numbers:
-                model, self._nuisances = belief.held(model, self._nuisances)
-            without, self._noise = settled(model, self._balances, self._nuisances, noise=self._noise)
-            found[name] = self._standing_in(final, without, len(numbers), name)
+                model, nuisances = belief.held(model, nuisances)
+            fitted, noise = settled(model, self._balances, nuisances, noise=at.noise)
+            found[name] = self._standing_in(at.current, Beside(fitted, nuisances, noise, at.without), len(numbers), name)
             # a mass that nobody doubts either is no surer than the drive: the motion shows their ratio alone
-            if not numbers[0].stated and not any(n.name in INERTIAL for n in self._nuisances):
+            if not numbers[0].stated and not any(n.name in INERTIAL for n in nuisances):
                 found[name] = tuple(dict.fromkeys((*found[name], INERTIAL[0])))
         return found
 
-    def _standing_in(self, final: JointFit, without: JointFit, size: int, own: str) -> tuple[str, ...]:
+    def _standing_in(self, final: JointFit, without: Beside, size: int, own: str) -> tuple[str, ...]:
         """Return what could stand in the place of a finding of ``size`` numbers, within `criteria.TIE`.
 
         Kinds of effects, and names of numbers of the mechanism that would be beyond their beliefs.
@@ -380,15 +365,15 @@ class Selector:
             own: what it is called.
         """
         fits = [(c.kind, c.parameters, f) for c, f in self._found(without).fits]
-        fits += [(f.number.name, f.count, f.fit) for f in self._freed(without)]
-        price = float(np.log(max(final.independent, 4.0)))
-        mine = evidence(without, final, final, self._settings)
-        theirs = [(name, n, evidence(without, f, final, self._settings)) for name, n, f in fits if finding(name) != own]
+        fits += [(f.name, f.count, f.fit) for f in self._freed(without)]
+        price = float(np.log(final.n))
+        mine = evidence(without.current, final, final, self._settings)
+        theirs = [(name, n, evidence(without.current, f, final, self._settings)) for name, n, f in fits if finding(name) != own]
         # one that explains next to nothing stands in for nothing, however close the scores
         least = mine - size * price - criteria.TIE
         return tuple(dict.fromkeys(name for name, n, x in theirs if x > criteria.STANDS_IN * mine and x - n * price > least))
 
-    def _unknown(self, last: Stage) -> tuple[str, float]:
+    def _unknown(self, last: Stage, noise: float) -> tuple[str, float]:
         """Return the axis of what is missing that no effect explains, empty if nothing is, and what part it takes away."""
         axis, score = last.competitors[0] if last.competitors else ("", -np.inf)
         named = last.trials[0].score
@@ -396,7 +381,7 @@ class Selector:
             criteria.WINS_BY, criteria.WINS_BY_SHARE * abs(named)
         ):
             return "", 0.0
-        gain = self._smooth.gain(last.before, self._noise, next(c for c in COMPETITORS if c.axis == axis))
+        gain = self._smooth.gain(last.before, noise, next(c for c in COMPETITORS if c.axis == axis))
         return (axis, gain) if gain > criteria.MATERIAL else ("", 0.0)
 
 
@@ -430,7 +415,3 @@ def simplest_first(trials: list[Trial], pairs: Sequence[Confounded] = ()) -> lis
 def _numbers(current: JointFit, candidate: Candidate, fitted: JointFit) -> int:
     """Return how many numbers a candidate adds to a fit, phases that each run has for itself among them."""
     return candidate.parameters + max(len(fitted.model.own) - len(current.model.own) - 1, 0)
-
-
-def _typical(balances: Sequence[ForceBalance]) -> float:
-    return float(np.std(np.concatenate([s.driven[s.sliding] for s in balances])))

@@ -13,7 +13,6 @@ from stochfric_mb.discovery.driven_joint.decision.selection import Selector
 from stochfric_mb.discovery.driven_joint.source import source_of
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.dataset import Dataset
-from stochfric_mb.measurement.run import Run
 from stochfric_mb.measurement.signs import SEGMENTS, probable_sign_error, turned_round
 from stochfric_mb.mechanisms import Mjcf
 
@@ -146,8 +145,5 @@ def _turned(dataset: Dataset, place: str) -> Dataset:
         drives = {n: dataclasses.replace(d, gain=-d.gain) if n == place else d for n, d in mechanism.drives.items()}
         scenario = dataclasses.replace(dataset.scenario, mechanism=dataclasses.replace(mechanism, drives=drives))
         return dataclasses.replace(dataset, scenario=scenario)
-    return dataclasses.replace(dataset, runs=tuple(map(_turned_run, dataset.runs)))
-
-
-def _turned_run(run: Run) -> Run:
-    return dataclasses.replace(run, channels={k: -v if k in DRIVES else v for k, v in run.channels.items()})
+    runs = (dataclasses.replace(r, channels={k: -v if k in DRIVES else v for k, v in r.channels.items()}) for r in dataset.runs)
+    return dataclasses.replace(dataset, runs=tuple(runs))

@@ -17,6 +17,7 @@ from stochfric_mb.discovery.driven_joint.fit.evidence import scatter, settings_o
 from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, prior_rows
 from stochfric_mb.discovery.driven_joint.fit.joint_model import STEP, change_of
 from stochfric_mb.discovery.inference.free_parameter import MECHANISM
+from stochfric_mb.discovery.inference.least_squares import lengths, solved
 
 Array = npt.NDArray[np.float64]
 
@@ -68,27 +69,16 @@ def _number(balance: ForceBalance, number: int) -> Array:
     return np.full(len(balance.time), float(number))
 
 
-def _position(balance: ForceBalance, _: int) -> Array:
-    return balance.position
-
-
-def _speed(balance: ForceBalance, _: int) -> Array:
-    return np.abs(balance.velocity)
-
-
-def _time(balance: ForceBalance, _: int) -> Array:
-    return balance.time
-
-
-def _load(balance: ForceBalance, _: int) -> Array:
-    return balance.load
-
-
 SIGNED = " and direction"
 """What the name of an axis ends with where the dependence turns with the direction, as friction does."""
 TIMES = " times "
 """What stands between the two conditions of an axis."""
-ALONG: dict[str, Axis] = {"position": _position, "speed": _speed, "time": _time, "load": _load}
+ALONG: dict[str, Axis] = {
+    "position": lambda balance, _: balance.position,
+    "speed": lambda balance, _: np.abs(balance.velocity),
+    "time": lambda balance, _: balance.time,
+    "load": lambda balance, _: balance.load,
+}
 """Conditions that vary within a run."""
 COMPETITORS = (
     *(Competitor(n + end, (x,), signed) for n, x in ALONG.items() for end, signed in (("", False), (SIGNED, True))),
@@ -130,21 +120,14 @@ class SmoothDependences:
             best: the best fit there is.
             noise: weight of beliefs, as of `fit`.
         """
-        n = max(best.independent, 4.0)
-        prior, offsets = prior_rows(current, noise)
-        rest = np.concatenate(current.remainders)
-        before = scatter(rest, self._settings, n)
-        kept = adjustable(current)
+        n = best.n
+        before = scatter(np.concatenate(current.remainders), self._settings, n)
         rivals: list[tuple[str, float]] = []
         for rival in COMPETITORS:
-            columns = self._sliding_columns(rival)
-            width = columns.shape[1]
+            width = self._sliding_columns(rival).shape[1]
             if width == 0:
                 continue
-            design = np.column_stack([current.jacobian[:, kept], columns])
-            below = np.column_stack([prior[:, kept], np.zeros((len(prior), width))])
-            slopes = self._by_drive(rival)
-            after = min(self._deviance_without(rest, offsets, design, below, n, ratio, slopes) for ratio in {0.0, before.ratio})
+            after = self._deviance_beside(current, noise, (rival,), n, 0.0, before.ratio)
             score = before.deviance - after - width * np.log(n)
             rivals.append((rival.axis, float(score)))
         return sorted(rivals, key=lambda r: -r[1])
@@ -154,7 +137,7 @@ class SmoothDependences:
 
         Beside them stands by what part the error on blocks left out falls with them.
         """
-        n = max(current.independent, 4.0)
+        n = current.n
         ratio = scatter(np.concatenate(current.remainders), self._settings, n).ratio
         scores: list[float] = []
         for both, alone in TOGETHER:
@@ -178,7 +161,7 @@ class SmoothDependences:
         """
         pair = next(b for b, _ in TOGETHER if b.axis == axis).conditions
         some = [c for both, alone in TOGETHER if both.conditions == pair for c in (*alone, both)]
-        n = max(richer.independent, 4.0)
+        n = richer.n
         ratio = scatter(np.concatenate(richer.remainders), self._settings, n).ratio
         before, after = (self._deviance_beside(f, noise, some, n, ratio) for f in (plain, richer))
         return before - after
@@ -193,12 +176,12 @@ class SmoothDependences:
         for i, some in enumerate((tuple(beside), (*beside, rival))):
             more = [self._sliding_columns(c) for c in some]
             slopes = np.column_stack([self._by_drive(c) for c in some]) if some else np.zeros((len(y) - len(prior), 0))
-            design = np.column_stack([known, *(_padded(c, len(prior)) for c in more)])
+            design = np.column_stack([known, *(np.vstack([c, np.zeros((len(prior), c.shape[1]))]) for c in more)])
+            size = lengths(design)
             for block in blocks(self._balances):
                 inner = np.concatenate([b[m] for b, m in zip(block, inside, strict=True)])
                 out = np.r_[inner, np.zeros(len(prior), dtype=bool)]
-                scale = np.maximum(np.linalg.norm(design, axis=0), 1.0e-300)
-                b = np.linalg.lstsq(design[~out] / scale, y[~out], rcond=1.0e-10)[0] / scale
+                b = solved(design[~out], y[~out], size)
                 left = error_of_drive(y[out], design[out], b, slopes[inner]) if slopes.any() else y[out] - design[out] @ b
                 errors[i] += float(np.sum(left**2))
         return 1.0 - float(np.sqrt(errors[1] / errors[0]))
@@ -208,15 +191,16 @@ class SmoothDependences:
         seen = rival.columns(self._balances)
         return np.concatenate([c[s.sliding] for c, s in zip(seen, self._balances, strict=True)])
 
-    def _deviance_beside(self, current: JointFit, noise: float, some: Sequence[Competitor], n: float, ratio: float) -> float:
-        """Return the deviance of what a fit leaves beside some dependences, for one ratio of the variances."""
+    def _deviance_beside(self, current: JointFit, noise: float, some: Sequence[Competitor], n: float, *ratios: float) -> float:
+        """Return the least deviance of what a fit leaves beside some dependences, for some ratios of the variances."""
         prior, offsets = prior_rows(current, noise)
         kept = adjustable(current)
         columns = np.column_stack([self._sliding_columns(c) for c in some])
         design = np.column_stack([current.jacobian[:, kept], columns])
         below = np.column_stack([prior[:, kept], np.zeros((len(prior), columns.shape[1]))])
         slopes = np.column_stack([self._by_drive(c) for c in some])
-        return self._deviance_without(np.concatenate(current.remainders), offsets, design, below, n, ratio, slopes)
+        rest = np.concatenate(current.remainders)
+        return min(self._deviance_without(rest, offsets, design, below, n, ratio, slopes) for ratio in {*ratios})
 
     def _deviance_without(
         self, rest: Array, offsets: Array, design: Array, below: Array, n: float, ratio: float, slopes: Array
@@ -227,10 +211,8 @@ class SmoothDependences:
         fit is taken, the drive being explained by motion only.
         """
         both = np.vstack([whitened(design, self._settings, n, ratio), below])
-        scale = np.maximum(np.linalg.norm(both, axis=0), 1.0e-300)
         goal = np.r_[whitened(rest[:, None], self._settings, n, ratio)[:, 0], offsets]
-        fitted = np.linalg.lstsq(both / scale, goal, rcond=1.0e-10)[0]
-        b = fitted / scale
+        b = solved(both, goal)
         if not slopes.any():
             return scatter(rest - design @ b, self._settings, n).deviance
         left = [error_of_drive(rest, design, part * b, slopes) for part in PARTS]
@@ -257,8 +239,3 @@ def adjustable(fitted: JointFit) -> list[int]:
     With less gain and a potential of its own in the place of gravity there would be less of everything, errors included.
     """
     return [i for i, k in enumerate(fitted.free) if k.owner != MECHANISM or not k.name.endswith("gain")]
-
-
-def _padded(columns: Array, rows: int) -> Array:
-    """Return ``columns`` with ``rows`` rows of zeros below."""
-    return np.vstack([columns, np.zeros((rows, columns.shape[1]))])

@@ -45,10 +45,10 @@ def verdict(
     places: Sequence[PlaceOutcome],
     notes: Sequence[str],
     loop_floor: float | None,
-    readings: Sequence[Effect] = (),
-    channel: tuple[str, Timing] | None = None,
+    readings: Sequence[Effect],
+    channel: tuple[str, Timing] | None,
     *,
-    mostly: bool = False,
+    mostly: bool,
 ) -> Result:
     """Return the result of a dataset.
 
@@ -116,11 +116,7 @@ def _gap(places: Sequence[PlaceOutcome], loop_floor: float | None) -> Gap:
     place = places[0]
     before, middle, after = (place.scores[k] for k in ("baseline", "recalibrated", "augmented"))
     if place.forecasts is not None:
-        seen = place.forecasts
-        return Gap(
-            "crps_friction", place.fit[0].unit, True, seen.baseline, seen.recalibrated, seen.augmented, seen.floor,
-            "the same forecasts of data that the model gives itself; its noise from differences between neighbouring windows",
-        )  # fmt: skip
+        return place.forecasts
     if before.loop is not None and middle.loop is not None and after.loop is not None and loop_floor is not None:
         metric = "closed_loop_drive" if middle.forward is not None else "closed_loop_voltage"
         return Gap(

@@ -107,7 +107,7 @@ def evidence(plain: JointFit, richer: JointFit, best: JointFit, settings: Labels
         best: the best fit there is, by which independent windows are counted.
         settings: the setting of each window of sliding, shape (n_windows,).
     """
-    n = max(best.independent, 4.0)
+    n = best.n
     ratio = scatter(np.concatenate(best.remainders), settings, n).ratio
     before, after = (scatter(np.concatenate(f.remainders), settings, n, ratios=np.array([ratio])) for f in (plain, richer))
     return before.deviance + plain.strain - after.deviance - richer.strain

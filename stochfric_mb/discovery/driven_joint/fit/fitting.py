@@ -64,6 +64,11 @@ class JointFit:
         """Number of independent windows: from the autocorrelation of what is left, `PER_STROKE` a stroke at most."""
         return self.independent_in(self.remainders)
 
+    @property
+    def n(self) -> float:
+        """The same as evidence counts it: at least four."""
+        return max(self.independent, 4.0)
+
     def independent_in(self, remainders: Sequence[Array]) -> float:
         """Return the same of what another model leaves at these centres, balance by balance."""
         return min(sum(independent_count(r) for r in remainders), float(PER_STROKE * self.strokes))
@@ -73,12 +78,18 @@ class JointFit:
         """Return the sum of squares of what was moved against beliefs, in their standard deviations [-]."""
         return float(np.sum(np.square(steps_of(self.free).surprise(self.values))))
 
+    def at(self, owner: int, name: str) -> list[int]:
+        """Return the places of a number among those fitted: none, one, or one for each run."""
+        return [i for i, one in enumerate(self.free) if (one.owner, one.name) == (owner, name)]
+
     def deviation(self, owner: int, name: str) -> float:
         """Return the standard deviation of a fitted number; nan if it was not fitted."""
-        for i, one in enumerate(self.free):
-            if (one.owner, one.name) == (owner, name):
-                return float(np.sqrt(max(self.covariance[i, i], 0.0)))
-        return float("nan")
+        at = self.at(owner, name)
+        return float(np.sqrt(max(self.covariance[at[0], at[0]], 0.0))) if at else float("nan")
+
+    def split(self, values: Array) -> list[Array]:
+        """Return values at all centres that were fitted balance by balance, shape (n,) or (n, k)."""
+        return np.split(values, np.cumsum([len(r) for r in self.remainders])[:-1])
 
 
 def stroke_count(masks: Sequence[Mask]) -> int:

@@ -15,6 +15,7 @@ from stochfric_mb.discovery.driven_joint.fit.free_parameters import adjusted, fr
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
 from stochfric_mb.discovery.driven_joint.fit.wave_scan import Start
 from stochfric_mb.discovery.inference.free_parameter import LAW, FreeParameter
+from stochfric_mb.discovery.inference.least_squares import left_by
 from stochfric_mb.effects import Effect
 
 Array = npt.NDArray[np.float64]
@@ -39,11 +40,6 @@ def effect_columns(model: JointModel, start: Start, balances: Sequence[ForceBala
         moved = adjusted(trial, [level, one], np.array([model.law.mu_k, one.value + step]))
         columns.append((force(moved) - here) / step)
     return np.column_stack(columns)
-
-
-def predicted_rms(model: JointModel, start: Start, balances: Sequence[ForceBalance], current: JointFit) -> float:
-    """Return the rms of `predicted_left` [N or N m]."""
-    return float(np.sqrt(np.mean(predicted_left(model, start, balances, current) ** 2)))
 
 
 def predicted_left(model: JointModel, start: Start, balances: Sequence[ForceBalance], current: JointFit) -> Array:
@@ -84,9 +80,3 @@ def _left_by_load(effect: Effect, balances: Sequence[ForceBalance], current: Joi
         own = np.asarray(block_diag(*((x - y)[:, None] for x, y in zip(begun, forces[0], strict=True))), dtype=np.float64)  # pyright: ignore[reportArgumentType, reportCallIssue]
         columns.append(np.vstack([own, np.zeros((len(off), len(balances)))]))
     return left_by(np.hstack(columns), np.r_[np.concatenate(current.remainders) - np.concatenate(forces[0]), off])
-
-
-def left_by(design: Array, values: Array) -> Array:
-    """Return what the columns of ``design`` leave of ``values``."""
-    scaled = design / np.maximum(np.linalg.norm(design, axis=0), 1.0e-300)
-    return values - scaled @ np.linalg.lstsq(scaled, values, rcond=1.0e-10)[0]

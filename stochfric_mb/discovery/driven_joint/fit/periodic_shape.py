@@ -17,6 +17,7 @@ from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalan
 from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, prior_rows, prior_weight
 from stochfric_mb.discovery.driven_joint.fit.wave_scan import BEST, FINE, Start, Waves, length, peaks, wave_starts, waves_left
 from stochfric_mb.discovery.inference.alignment import HARMONICS, aligned
+from stochfric_mb.discovery.inference.least_squares import solved
 from stochfric_mb.effects.contract import Scan
 from stochfric_mb.effects.shapes.splines import returning
 
@@ -84,11 +85,10 @@ def shaped_starts(scan: Scan, found: Sequence[Returning], current: JointFit, bal
     """
     assert scan.shaped is not None
     starts: list[Start] = []
-    ends = np.cumsum([len(r) for r in current.remainders])[:-1]
     shapes = [(one, *_shape(one, scan.pieces, current, balances)) for one in found]
     for one, weights, left in sorted(shapes, key=lambda s: float(np.sum(s[2] ** 2)))[:BEST]:
         rest = left[: len(current.jacobian)]
-        n = max(current.independent_in(np.split(rest, ends)), 4.0)
+        n = max(current.independent_in(current.split(rest)), 4.0)
         if 2.0 * n * float(np.log(current.rms / np.sqrt(np.mean(rest**2)))) < (scan.pieces + len(balances)) * float(np.log(n)):
             break
         effect, begins = scan.shaped(one.number, weights), 2.0 * np.pi * one.begins
@@ -144,10 +144,9 @@ def _shape(one: Returning, pieces: int, current: JointFit, balances: Sequence[Fo
         np.column_stack([current.jacobian, np.concatenate(columns)]),
         np.column_stack([prior, np.zeros((len(prior), pieces - 1))]),
     ])  # fmt: skip
-    scale = np.maximum(np.linalg.norm(design, axis=0), 1.0e-300)
     values = np.r_[np.concatenate(current.remainders), off]
-    solved = np.linalg.lstsq(design / scale, values, rcond=1.0e-10)[0] / scale
-    return solved[-(pieces - 1) :], values - design @ solved
+    numbers = solved(design, values)
+    return numbers[-(pieces - 1) :], values - design @ numbers
 
 
 def _seen(current: JointFit, balances: Sequence[ForceBalance]) -> Iterator[tuple[Array, Array]]:

@@ -21,6 +21,7 @@ from stochfric_mb.discovery.driven_joint.fit.fitting import EVALUATIONS, JointFi
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel, Own
 from stochfric_mb.discovery.inference.alignment import BEGINS
 from stochfric_mb.discovery.inference.fitter import minimised
+from stochfric_mb.discovery.inference.least_squares import lengths
 from stochfric_mb.effects import Effect
 from stochfric_mb.effects.contract import Scan
 from stochfric_mb.effects.shapes.periodic import Periodic
@@ -78,10 +79,8 @@ def waves_left(scan: Scan, current: JointFit, balances: Sequence[ForceBalance]) 
     if len(numbers) < 2:
         return Waves(*(np.zeros((1, 0)) for _ in range(4)))
     known = np.vstack([current.jacobian, prior_rows(current, prior_weight(current))[0]])
-    scaled = known / np.maximum(np.linalg.norm(known, axis=0), 1.0e-300)
-    basis = np.linalg.svd(scaled, full_matrices=False)[0][: len(current.jacobian)]
-    ends = np.cumsum([len(r) for r in current.remainders])[:-1]
-    parts = zip(balances, current.remainders, np.split(basis, ends), strict=True)
+    basis = np.linalg.svd(known / lengths(known), full_matrices=False)[0][: len(current.jacobian)]
+    parts = zip(balances, current.remainders, current.split(basis), strict=True)
     sums = np.array([_sums(scan, s, r, q, numbers) for s, r, q in parts])
     own = scan.begin(float(numbers[0]), 1.0, 0.0).own_to_run
     return Waves(numbers, *_solved(sums if own else sums.sum(axis=0, keepdims=True)))

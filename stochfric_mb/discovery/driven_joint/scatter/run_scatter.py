@@ -135,20 +135,6 @@ def _spread(groups: Sequence[Array]) -> float:
     return sum(float(np.sum((g - g.mean()) ** 2)) for g in groups) / freedom if freedom else 0.0
 
 
-@dataclasses.dataclass(frozen=True)
-class Forecasts:
-    """CRPS of forecasts of friction in held-out runs [N or N m]."""
-
-    baseline: float
-    """Of the model as stated."""
-    recalibrated: float
-    """Of the recalibrated one."""
-    augmented: float
-    """Of the augmented one, which knows how far runs scatter."""
-    floor: float
-    """Of the latter on data that it gives itself."""
-
-
 def crps_of(
     model: JointModel, balances: Sequence[ForceBalance], nuisances: Sequence[Nuisance], noise: float, sigma: float
 ) -> tuple[float, float]:

@@ -7,7 +7,6 @@ from collections.abc import Callable, Hashable, Sequence
 from typing import NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 from scipy.stats import chi2
 
 from stochfric_mb.discovery import criteria
@@ -22,8 +21,6 @@ from stochfric_mb.discovery.driven_joint.search.first_order import Prospect, pro
 from stochfric_mb.discovery.driven_joint.simulation.scores import FLOOR, noise_floor
 from stochfric_mb.effects.joints import JointSpan
 from stochfric_mb.effects.shapes.course import LeveledCourse
-
-Array = npt.NDArray[np.float64]
 
 STARTS, STARTS_ROUGH = 2, 6
 """Best starts of an effect from which it is fitted; of a rough one the best is often in a wrong valley."""
@@ -106,10 +103,10 @@ class CandidateFits:
         asked = [self._seen(beside, c) for c in _asked(span, beside, of_loads=True)]
         return Found([(p.candidate, f) for p in asked if (f := self._once(beside, p)) is not None], ())
 
-    def leaves_more_than_noise(self, found: Found, current: JointFit, nuisances: Sequence[Nuisance]) -> bool:
+    def leaves_more_than_noise(self, found: Found, beside: Beside) -> bool:
         """Return whether the best fit that there is leaves more than noise."""
-        least = min((current, *(f for _, f in found.fits)), key=lambda f: f.rms)
-        return least.rms > FLOOR * noise_floor(least.model, self._balances, nuisances)
+        least = min((beside.current, *(f for _, f in found.fits)), key=lambda f: f.rms)
+        return least.rms > FLOOR * noise_floor(least.model, self._balances, beside.nuisances)
 
     def _span(self, beside: Beside) -> JointSpan:
         model = beside.current.model
@@ -166,12 +163,11 @@ class CandidateFits:
         """
         current = beside.current
         best = min((f for _, f in fits), key=lambda f: f.rms, default=current)
-        least, n = best.rms, max(best.independent, 4.0)
-        ends = np.cumsum([len(r) for r in current.remainders])[:-1]
+        least, n = best.rms, best.n
         supported: list[tuple[Candidate, float]] = []
         for one in courses:
             left = predicted_left(current.model, begun(one.starts[0], self._balances), self._balances, current)
-            rms, own = float(np.sqrt(np.mean(left**2))), current.independent_in(np.split(left, ends))
+            rms, own = float(np.sqrt(np.mean(left**2))), current.independent_in(current.split(left))
             if criteria.WINDOWS_A_NUMBER * one.parameters <= own:
                 supported.append((one, rms))
                 least, n = min((least, n), (rms, own))
@@ -202,7 +198,7 @@ def is_none(fitted: JointFit, owner: int) -> bool:
     """
     effect = fitted.model.effects[owner]
     if effect.moves_load:
-        share = next(k for k in fitted.free if (k.owner, k.name) == (owner, SHARE))
+        share = fitted.free[fitted.at(owner, SHARE)[0]]
         value = float(getattr(effect, SHARE))
         return may_be_zero(fitted, owner) or min(value - share.low, share.high - value) < AT_AN_END * (share.high - share.low)
     varies = effect.weights if isinstance(effect, LeveledCourse) and effect.any_shape else VARIES

@@ -14,8 +14,6 @@ from stochfric_mb.effects.contract import JointSignature, Scan
 from stochfric_mb.effects.joints import JointSpan
 from stochfric_mb.effects.shapes.course import Course
 
-Array = npt.NDArray[np.float64]
-
 
 @dataclasses.dataclass(frozen=True)
 class Candidate:

@@ -90,7 +90,7 @@ def prospects(each: Sequence[Prospect], current: JointFit, settings: Labels) -> 
         return Prospects(tuple(each), ())
     left = [p.left for p in known if p.left is not None]
     best = min(left, key=lambda x: float(np.mean(x**2)))
-    n = max(current.independent_in(np.split(best, np.cumsum([len(r) for r in current.remainders])[:-1])), 4.0)
+    n = max(current.independent_in(current.split(best)), 4.0)
     rest = np.concatenate(current.remainders)
     evidence = np.zeros(len(known))
     for ratio in {0.0, scatter(best, settings, n).ratio}:

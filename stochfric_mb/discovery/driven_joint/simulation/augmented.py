@@ -25,7 +25,7 @@ def stated_scatter(scenario: Scenario[Any], process: str) -> float:
 
 def augmented(scenario: Scenario[Any], places: Sequence[PlaceOutcome], readings: Sequence[Effect] = ()) -> Scenario[Any]:
     """Return the scenario with the identified effects; of several joints, the first one's effects and delay, in that joint."""
-    model, timing = places[0].selected.final.model, places[0].timing
+    model = places[0].selected.final.model
     effects = [e.normalised() if isinstance(e, Course) else e for e in model.effects_in(places[0].fit[0].run)]
     drawn = _drawn(places[0])
     effects += [
@@ -37,7 +37,7 @@ def augmented(scenario: Scenario[Any], places: Sequence[PlaceOutcome], readings:
         sigma, process = max(drawn)  # a model has one such process
         sigma_s = sigma * model.law.mu_s / model.law.mu_k
         effects.append(make_effect(kind_with_signature(DRAWN_ANEW), process=process, sigma_s=sigma_s, sigma_k=sigma))
-    delay = sum(e.late for e in scenario.effects) + (timing.seconds if timing is not None and timing.named else 0.0)
+    delay = sum(e.late for e in scenario.effects) + places[0].late
     if delay > 0.0:  # one that comes before has no effect of its own, and stays a finding
         effects.append(make_effect(kind_with_signature(LATE), delay=delay))
     return dataclasses.replace(
