@@ -33,7 +33,8 @@ BESIDE_SHAPES = 0.1
 """Share of the score of shapes that simulating has refuted from which on another effect may be named [-]."""
 FORM_MISSES = 0.03
 """Share of the stated model's misfit that an effect of another form than the simulated one may leave [-]: a sixth of its
-strength. The tests' forms leave 0.016 at most, those of other kinds 0.08 where friction varies along the stroke."""
+strength. The tests' forms leave 0.016 at most, those of other kinds 0.08 where friction varies along the stroke. As a share
+of the size, not its square, it is what an empirical law of friction may miss where another stands in its place."""
 OWN_FORM = 0.5
 """Share of the evidence of an effect and a smooth term along its own axis together that the effect's form must have by itself,
 for the term to be taken for its shape [-]: the larger part."""

@@ -46,7 +46,9 @@ PHASES = ("phase", "phase_2", "phase_3")
 """Parameters of effects that hang on where their zero of time or place is."""
 OF_MECHANISM = "mechanism"
 """The group of effects that are no friction but forces of their own, whose form mechanics gives."""
-GROUPS = ("randomness", "friction law", "friction varies", OF_MECHANISM, "sensor")
+OF_FRICTION = ("friction law", "friction varies")
+"""The groups of laws of friction, which are empirical: real friction departs from them by a few per cent."""
+GROUPS = ("randomness", *OF_FRICTION, OF_MECHANISM, "sensor")
 """What effects are grouped by."""
 
 # Entries of ``world``.

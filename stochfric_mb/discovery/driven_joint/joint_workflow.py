@@ -35,6 +35,8 @@ from stochfric_mb.mechanisms import Cascade, Mjcf, PrismaticJoint, ProportionalD
 from stochfric_mb.scenario import ABSOLUTE, Scenario
 
 Progress = Callable[[str], None]
+Simulated = tuple[list[PlaceOutcome], float | None]
+"""Places with their simulations, and the noise of the drive."""
 ANSWERS = 3
 """Answers that are tried, each without what led those before it: the held-out runs judge so many, and no more."""
 CONTROLLED = {Cascade.kind: PrismaticJoint.kind, ProportionalDerivative.kind: Mjcf.kind}
@@ -167,13 +169,13 @@ def _outcome(
     return JointOutcome(result, scenario, dataset, places=tuple(places), pictures=pictures)
 
 
-def _adequate(source: Balances, tell: Progress, places: Sequence[PlaceOutcome]) -> tuple[list[PlaceOutcome], float | None]:
+def _adequate(source: Balances, tell: Progress, places: Sequence[PlaceOutcome]) -> Simulated:
     """Return the places simulated, the first one with the first of its answers that is adequate, and the noise of the drive.
 
     One effect is asked for in the place of two that draw one curve: what is of neither kind would be named by chance then, as
     what is left of a series would.
     """
-    first = seen = simulated(source, tell, places)
+    first = seen = _without_last(source, tell, simulated(source, tell, places))
     stages: tuple[Stage, ...] = ()
     without = frozenset[str]()
     for _ in range(ANSWERS - 1):
@@ -196,9 +198,21 @@ def _adequate(source: Balances, tell: Progress, places: Sequence[PlaceOutcome]) 
     return [dataclasses.replace(best[0], beside=stages), *best[1:]], floor
 
 
-def _less_refuted_delay(
-    source: Balances, tell: Progress, best: list[PlaceOutcome], floor: float | None
-) -> tuple[list[PlaceOutcome], float | None]:
+def _without_last(source: Balances, tell: Progress, seen: Simulated) -> Simulated:
+    """Return the places without the last name at the first one, if they are adequate without it and not with it.
+
+    What the first form leaves may look like another effect, which takes the first one along where a simulation refutes it.
+    """
+    place = seen[0][0]
+    names = place.selected.named
+    if len(names) < 2 or place.again is None or drawn_by_two(place) or not inadequate(place):
+        return seen
+    other = simulated(source, tell, [place.again(frozenset({names[-1]})), *seen[0][1:]])
+    named = other[0][0].selected.named
+    return other if named and named[0] == names[0] and not inadequate(other[0][0]) else seen
+
+
+def _less_refuted_delay(source: Balances, tell: Progress, best: list[PlaceOutcome], floor: float | None) -> Simulated:
     """Return the places without a delay beside effects that simulate held-out runs better alone, and the noise of the drive.
 
     Windows are explained better by what brings their times forward, too, narrow ones above all; a simulation shows what a delay

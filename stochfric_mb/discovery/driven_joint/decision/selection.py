@@ -23,6 +23,8 @@ from stochfric_mb.discovery.driven_joint.fit.wave_scan import tried
 from stochfric_mb.discovery.driven_joint.search.candidate_fits import Beside, CandidateFits, Found, is_none, may_be_zero
 from stochfric_mb.discovery.driven_joint.search.candidates import Candidate
 from stochfric_mb.discovery.inference.paired import Paired
+from stochfric_mb.effects import effect_class, effect_kinds
+from stochfric_mb.effects.contract import OF_FRICTION
 
 
 @dataclasses.dataclass(frozen=True)
@@ -354,9 +356,10 @@ class Selector:
         return found
 
     def _standing_in(self, final: JointFit, without: Beside, size: int, own: str) -> tuple[str, ...]:
-        """Return what could stand in the place of a finding of ``size`` numbers, within `criteria.TIE`.
+        """Return what could stand in the place of a finding of ``size`` numbers.
 
-        Kinds of effects, and names of numbers of the mechanism that would be beyond their beliefs.
+        Kinds of effects, and names of numbers of the mechanism that would be beyond their beliefs: all within `criteria.TIE`,
+        and beside a law of friction those that leave no more of what it explains than an empirical law may miss.
 
         Args:
             final: the fit with all findings.
@@ -368,10 +371,16 @@ class Selector:
         fits += [(f.name, f.count, f.fit) for f in self._freed(without)]
         price = float(np.log(final.n))
         mine = evidence(without.current, final, final, self._settings)
-        theirs = [(name, n, evidence(without.current, f, final, self._settings)) for name, n, f in fits if finding(name) != own]
         # one that explains next to nothing stands in for nothing, however close the scores
         least = mine - size * price - criteria.TIE
-        return tuple(dict.fromkeys(name for name, n, x in theirs if x > criteria.STANDS_IN * mine and x - n * price > least))
+        missed = final.rms**2 + criteria.FORM_MISSES**2 * (without.current.rms**2 - final.rms**2)
+        found: list[str] = []
+        for name, n, other in fits:
+            score = evidence(without.current, other, final, self._settings)
+            near = score - n * price > least or (_empirical(own) and _empirical(name) and other.rms**2 < missed)
+            if finding(name) != own and score > criteria.STANDS_IN * mine and near:
+                found.append(name)
+        return tuple(dict.fromkeys(found))
 
     def _unknown(self, last: Stage, noise: float) -> tuple[str, float]:
         """Return the axis of what is missing that no effect explains, empty if nothing is, and what part it takes away."""
@@ -415,3 +424,8 @@ def simplest_first(trials: list[Trial], pairs: Sequence[Confounded] = ()) -> lis
 def _numbers(current: JointFit, candidate: Candidate, fitted: JointFit) -> int:
     """Return how many numbers a candidate adds to a fit, phases that each run has for itself among them."""
     return candidate.parameters + max(len(fitted.model.own) - len(current.model.own) - 1, 0)
+
+
+def _empirical(name: str) -> bool:
+    """Return whether a finding is a law of friction: no mechanics gives its form."""
+    return name in effect_kinds() and effect_class(name).group in OF_FRICTION
