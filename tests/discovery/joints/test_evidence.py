@@ -1,11 +1,17 @@
 """Evidence with two variances, against closed forms; which parts of records are left out."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 
-from stochfric_mb.discovery.driven_joint.decision.cross_validation import blocks, strokes
+from stochfric_mb.discovery.driven_joint.decision import cross_validation
+from stochfric_mb.discovery.driven_joint.decision.cross_validation import blocks, compared, strokes
 from stochfric_mb.discovery.driven_joint.fit.evidence import scatter, settings_of, whitened
 from stochfric_mb.discovery.driven_joint.fit.fitting import stroke_count
+from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
+from stochfric_mb.effects import make_effect
+from stochfric_mb.laws import make_law
 from tests.discovery.joints.test_parts import balance_of, coulomb, scenario, sine_run
 
 
@@ -61,3 +67,19 @@ def test_one_run_is_left_out_by_strokes_and_several_by_their_directions(balances
     assert len(strokes(balances)) == 4
     assert len(np.unique(settings_of(balances))) == 4
     assert len(np.unique(settings_of(balances[:1]))) == 1
+
+
+def test_many_parts_are_left_out_together(balances, monkeypatch):
+    plain = JointModel(make_law("coulomb", mu_s=0.1, mu_k=0.1), (), {}, 20.0)
+    richer = dataclasses.replace(plain, effects=(make_effect("viscous_friction", coefficient=0.05),))
+    parts, fits = blocks(balances, 60), []
+    fitted = cross_validation.fit
+    monkeypatch.setattr(cross_validation, "fit", lambda *a, **k: fits.append(1) or fitted(*a, **k))
+    seen = compared(plain, richer, balances, [], 0.05, parts)
+    assert (len(fits), seen.parts) == (2 * cross_validation.MOST_FITS, 60)
+    monkeypatch.setattr(cross_validation, "MOST_FITS", 60)
+    single = compared(plain, richer, balances, [], 0.05, parts)
+    assert len(fits) == 2 * 24 + 2 * 60
+    # three parts of 60 are missing in place of one: numbers that 57 blocks tell are a hundredth of the noise in a block off
+    assert seen.without == pytest.approx(single.without, rel=1e-3)
+    assert seen.with_ == pytest.approx(single.with_, rel=1e-3)

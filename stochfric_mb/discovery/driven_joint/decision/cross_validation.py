@@ -19,6 +19,9 @@ Masks = list[npt.NDArray[np.bool_]]
 
 BLOCKS = 8
 """Blocks of the record that are left out in turn."""
+MOST_FITS = 24
+"""Most fits without parts of the record: of more parts several are left out at once, spread over the record, which raises the
+variance of what is fitted by a 24th at most."""
 EVALUATIONS = 4
 """Gauss-Newton steps of a fit without a part: it starts from the fit to all."""
 
@@ -72,19 +75,23 @@ def compared(
     ``beliefs`` are the numbers of the mechanism with their priors in the richer model; None: as in the plain one.
     """
     both = (plain, nuisances), (richer, nuisances if beliefs is None else beliefs)
-    errors = np.array([[_error(m, balances, believed, noise, part) for m, believed in both] for part in parts])
-    return paired(*errors.T)
+    together = [list(range(first, len(parts), MOST_FITS)) for first in range(min(len(parts), MOST_FITS))]
+    errors = np.empty((2, len(parts)))
+    for row, (model, believed) in zip(errors, both, strict=True):
+        for chosen in together:
+            row[chosen] = _errors(model, balances, believed, noise, [parts[i] for i in chosen])
+    return paired(*errors)
 
 
-def _error(
-    model: JointModel, balances: Sequence[ForceBalance], nuisances: Sequence[Nuisance], noise: float, part: Masks
-) -> float:
-    """Return the sum of squares on a part, of a model fitted without it."""
-    kept = [s.sliding & ~out for s, out in zip(balances, part, strict=True)]
+def _errors(
+    model: JointModel, balances: Sequence[ForceBalance], nuisances: Sequence[Nuisance], noise: float, parts: Sequence[Masks]
+) -> list[float]:
+    """Return the sum of squares on each of some parts, of a model fitted without them."""
+    kept = [s.sliding & ~np.logical_or.reduce(out) for s, out in zip(balances, zip(*parts, strict=True), strict=True)]
     fitted = fit(model, balances, nuisances, noise=noise, masks=kept, evaluations=EVALUATIONS).model
     fitted = with_phases(fitted, [s for s, mask in zip(balances, kept, strict=True) if not mask.any()], nuisances)
-    rest = [fitted.remainder(s, nuisances)[out] for s, out in zip(balances, part, strict=True)]
-    return float(np.sum(np.concatenate(rest) ** 2))
+    rest = [fitted.remainder(s, nuisances) for s in balances]
+    return [float(np.sum(np.concatenate([r[out] for r, out in zip(rest, part, strict=True)]) ** 2)) for part in parts]
 
 
 def _split(mask: npt.NDArray[np.bool_], balances: Sequence[ForceBalance]) -> Masks:
