@@ -95,5 +95,5 @@ def test_the_angle_of_a_rig_that_turns_is_read_as_an_arc_as_the_error_says(tmp_p
 def test_a_current_is_refused_with_the_constant_that_makes_it_a_torque(tmp_path):
     file = tmp_path / "log.csv"
     file.write_text("\n".join(["time [s],torque [mA]", *(f"{1e-3 * i:.3f},{0.5 * i}" for i in range(N))]) + "\n")
-    with pytest.raises(InputError, match=r"of 0.1 N m/A, scale = \{ torque = 0.1 \} and units = \{ torque = \"N m\" \}"):
+    with pytest.raises(InputError, match=r"of 0.1 N m/A, scale = \{ torque = 0.0001 \} and units = \{ torque = \"N m\" \}"):
         assemble(RunEntry(file=file, name="log"), rotational=True)
