@@ -60,6 +60,29 @@ def test_a_lag_begins_at_the_reversal_and_not_where_a_piece_begins(tmp_path):
     assert right < 0.1 * without
 
 
+def test_a_motion_without_bounds_leaves_no_log_in_the_working_folder(tmp_path, monkeypatch):
+    from stochfric_mb.discovery.driven_joint.mjcf.forward import forward
+
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "model.xml").write_text(MODEL)
+    mechanism = {
+        "kind": "mjcf", "file": "model.xml", "friction": {"j": LOAD}, "positions": {"j": "position"}, "drives": {"j": "force"},
+    }  # fmt: skip
+    tables = {
+        "schema": "stochfric.scenario/1",
+        "mechanism": mechanism,
+        "law": {"kind": "coulomb", "mu_s": MU_S, "mu_k": MU_K},
+        "simulation": {"duration": 12.0, "output_step": 1.0e-3},
+    }
+    run = record("test")
+    far = dataclasses.replace(run, channels=run.channels | {"force": 1.0e12 * run.channels["force"]})  # beyond MuJoCo's 1e10
+    scenario = any_scenario_from_dict(tables, folder=tmp_path)
+    source = source_of(Dataset(title="", scenario_path=None, scenario=scenario, runs=(record("fit"), far)))
+    model = JointModel(make_law("coulomb", mu_s=MU_S, mu_k=MU_K), (), {}, LOAD)
+    assert forward(source, {"j": model}, 0.0).position > 0.5 * REACH  # MuJoCo puts it back to where the model starts
+    assert [p.name for p in tmp_path.iterdir()] == ["model.xml"]
+
+
 def test_the_load_of_a_hinge_is_its_torque_in_forward_simulation_as_in_fits():
     """What viscous damping takes is part of what the joint transmits: taken off, the friction of a fit is 25 % too low here."""
     from stochfric_mb.discovery.driven_joint.mjcf.forward import forward
