@@ -373,11 +373,10 @@ class Selector:
         mine = evidence(without.current, final, final, self._settings)
         # one that explains next to nothing stands in for nothing, however close the scores
         least = mine - size * price - criteria.TIE
-        missed = final.rms**2 + criteria.FORM_MISSES**2 * (without.current.rms**2 - final.rms**2)
         found: list[str] = []
         for name, n, other in fits:
             score = evidence(without.current, other, final, self._settings)
-            near = score - n * price > least or (_empirical(own) and _empirical(name) and other.rms**2 < missed)
+            near = score - n * price > least or as_good(own, name, without.current.rms, final.rms, other.rms)
             if finding(name) != own and score > criteria.STANDS_IN * mine and near:
                 found.append(name)
         return tuple(dict.fromkeys(found))
@@ -426,6 +425,15 @@ def _numbers(current: JointFit, candidate: Candidate, fitted: JointFit) -> int:
     return candidate.parameters + max(len(fitted.model.own) - len(current.model.own) - 1, 0)
 
 
-def _empirical(name: str) -> bool:
-    """Return whether a finding is a law of friction: no mechanics gives its form."""
-    return name in effect_kinds() and effect_class(name).group in OF_FRICTION
+def as_good(own: str, other: str, without: float, with_: float, instead: float) -> bool:
+    """Return whether a law of friction, in the place of another, leaves no more of what that explains than such a law may miss.
+
+    Args:
+        own: what is named.
+        other: what may stand in its place.
+        without: error without either, rms.
+        with_: with what is named.
+        instead: with the other.
+    """
+    laws = all(name in effect_kinds() and effect_class(name).group in OF_FRICTION for name in (own, other))
+    return laws and instead**2 - with_**2 < criteria.FORM_MISSES**2 * (without**2 - with_**2)
