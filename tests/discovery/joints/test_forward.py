@@ -34,10 +34,9 @@ def record(role: str) -> Run:
     return Run(name=role, role=role, time=t, channels=channels, sample_interval=1.0 / RATE)
 
 
-def test_a_lag_begins_at_the_reversal_and_not_where_a_piece_begins(tmp_path):
-    from stochfric_mb.discovery.driven_joint.mjcf.forward import forward
-
-    (tmp_path / "model.xml").write_text(MODEL)
+def moved(folder, *runs):
+    """The joint and its runs, as they are seen."""
+    (folder / "model.xml").write_text(MODEL)
     mechanism = {
         "kind": "mjcf", "file": "model.xml", "friction": {"j": LOAD}, "positions": {"j": "position"}, "drives": {"j": "force"},
     }  # fmt: skip
@@ -47,8 +46,14 @@ def test_a_lag_begins_at_the_reversal_and_not_where_a_piece_begins(tmp_path):
         "law": {"kind": "coulomb", "mu_s": MU_S, "mu_k": MU_K},
         "simulation": {"duration": 12.0, "output_step": 1.0e-3},
     }
-    scenario = any_scenario_from_dict(tables, folder=tmp_path)
-    source = source_of(Dataset(title="", scenario_path=None, scenario=scenario, runs=(record("fit"), record("test"))))
+    scenario = any_scenario_from_dict(tables, folder=folder)
+    return source_of(Dataset(title="", scenario_path=None, scenario=scenario, runs=runs))
+
+
+def test_a_lag_begins_at_the_reversal_and_not_where_a_piece_begins(tmp_path):
+    from stochfric_mb.discovery.driven_joint.mjcf.forward import forward
+
+    source = moved(tmp_path, record("fit"), record("test"))
     plain = JointModel(make_law("coulomb", mu_s=MU_S, mu_k=MU_K), (), {}, LOAD)
     with_memory = dataclasses.replace(plain, effects=(make_effect("frictional_lag", distance=DISTANCE),))
     seen = [forward(source, {"j": model}, 0.0) for model in (plain, with_memory)]
@@ -64,20 +69,9 @@ def test_a_motion_without_bounds_leaves_no_log_in_the_working_folder(tmp_path, m
     from stochfric_mb.discovery.driven_joint.mjcf.forward import forward
 
     monkeypatch.chdir(tmp_path)
-    (tmp_path / "model.xml").write_text(MODEL)
-    mechanism = {
-        "kind": "mjcf", "file": "model.xml", "friction": {"j": LOAD}, "positions": {"j": "position"}, "drives": {"j": "force"},
-    }  # fmt: skip
-    tables = {
-        "schema": "stochfric.scenario/1",
-        "mechanism": mechanism,
-        "law": {"kind": "coulomb", "mu_s": MU_S, "mu_k": MU_K},
-        "simulation": {"duration": 12.0, "output_step": 1.0e-3},
-    }
     run = record("test")
     far = dataclasses.replace(run, channels=run.channels | {"force": 1.0e12 * run.channels["force"]})  # beyond MuJoCo's 1e10
-    scenario = any_scenario_from_dict(tables, folder=tmp_path)
-    source = source_of(Dataset(title="", scenario_path=None, scenario=scenario, runs=(record("fit"), far)))
+    source = moved(tmp_path, record("fit"), far)
     model = JointModel(make_law("coulomb", mu_s=MU_S, mu_k=MU_K), (), {}, LOAD)
     assert forward(source, {"j": model}, 0.0).position > 0.5 * REACH  # MuJoCo puts it back to where the model starts
     assert [p.name for p in tmp_path.iterdir()] == ["model.xml"]
