@@ -118,9 +118,9 @@ FACTORS: dict[str, tuple[float, ...]] = {
     "torque": (1e3, 1e-3, 1e2, 1e-2),
     "angle": (IN_DEGREES, 1.0 / IN_DEGREES),
     "length": (1e3, 1e-3),
-    "inertia": (1e3, 1e4, 1e6, 1e7),
+    "inertia": (1e3, 1e-3, 1e4, 1e-4, 1e6, 1e7, 1e-7),
 }
-"""What may have a wrong unit -> factors between the units in use."""
+"""What may have a wrong unit -> factors between the units in use; an inertia of a millionth is a time in ms."""
 
 
 def shown(run: Run, box: BeltBox, mu_s: float) -> Shown | None:

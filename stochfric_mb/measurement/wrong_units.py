@@ -279,7 +279,10 @@ def _in_unit(run: Run, joint: PrismaticJoint | HingePendulum, name: str, factor:
     if name in ("mass", "length", "inertia"):
         value, (si, *_) = float(getattr(joint, name)), STATED_UNITS[name]
         really = _unit_of(STATED_UNITS[name], 1.0 / factor)
-        return f"{name} in {stated_in} is in {really}: write {name} = {value / factor:.6g} ({si})" if really != si else ""
+        if really == si and name != "inertia":
+            return ""
+        wrong = f"in {really}" if really != si else f"{_times(factor)} what fits"  # converted twice
+        return f"{name} in {stated_in} is {wrong}: write {name} = {value / factor:.6g} ({si})"
     column = "position" if name == "angle" else name
     through = _through(run, joint)
     if column in ("force", "torque") and through:  # a drive in volts, for one

@@ -15,6 +15,8 @@ from stochfric_mb.discovery.stick_slip import workflow
 from stochfric_mb.discovery.stick_slip.decision.decision import Decision, selected
 from stochfric_mb.discovery.stick_slip.decision.kinematics import STICK_SHARE
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
+from stochfric_mb.discovery.stick_slip.simulation.refit import Fit
+from stochfric_mb.discovery.stick_slip.validation import answers
 from stochfric_mb.discovery.stick_slip.validation.answers import Answer, _by_its_motion, _far_off
 from stochfric_mb.discovery.stick_slip.validation.explained import (
     MORE_MISSING,
@@ -187,3 +189,24 @@ def test_a_name_explains_more_of_held_out_runs_than_it_leaves(kind, closed, stan
 )
 def test_forecasts_have_to_show_what_nothing_else_has_shown(kind, shape_left, details, shown):
     assert felt(decided(kind, details=details, shape_left=shape_left)) == shown
+
+
+@pytest.mark.parametrize(
+    ("effect", "told_by_slips"),
+    [
+        (make_effect("random_coefficients", sigma_s=0.01, sigma_k=0.01), True),
+        (make_effect("impacts", rate=1.0, impulse=1e-3, duration=2e-3), False),  # kicks are in the mean of slips
+    ],
+)
+def test_slips_tell_the_mean_of_drawn_coefficients_and_forecasts_that_of_kicked_ones(monkeypatch, effect, told_by_slips):
+    slips, forecasts = Coulomb(mu_s=0.8, mu_k=0.46), Coulomb(mu_s=0.79, mu_k=0.45)
+    model = Model(slips, {}, (effect,), freed=frozenset({"mass"}), stated=frozenset({effect}))
+    decision = Decision("effect", (selected(effect.kind, Evidence(100.0, None), model),), None, model, (), {})
+    free = SimpleNamespace(windows=(), uncertainty={}, pool=None)
+    monkeypatch.setattr(answers, "refit", lambda m, *_, **__: Fit(m, [], np.zeros(0), np.zeros(0), 0.0))
+    monkeypatch.setattr(answers, "with_deviations", lambda fit, *_, **__: fit)
+    monkeypatch.setattr(answers, "matched", lambda joined, pool: joined)
+    fit = answers.fitted(decision, free, Fit(Model(forecasts, {"mass": 0.01}), [], np.zeros(0), np.zeros(0), 0.0)).fit
+    assert fit.model.law == (slips if told_by_slips else forecasts)
+    # what the scenario states is exact in the joint model, too, and what is not believed of the mechanism stays free
+    assert (fit.model.effects, fit.model.freed, fit.model.stated) == ((effect,), model.freed, model.stated)

@@ -386,17 +386,22 @@ def test_units_at_a_hinge_by_torque_over_acceleration_and_weight(tmp_path, swing
     assert text.count("write ") == len(remedies), text
 
 
-@pytest.mark.parametrize(("factor", "unit"), [(1e3, "g m^2"), (1e4, "kg cm^2"), (1e7, "g cm^2")])
-def test_an_inertia_about_its_own_axis_is_told_in_its_units(tmp_path, factor, unit):
+@pytest.mark.parametrize(
+    ("factor", "wrong"),
+    [(1e3, "in g m^2"), (1e4, "in kg cm^2"), (1e7, "in g cm^2"), (1e-4, "1/1e+04 of what fits")],  # the last: converted twice
+)
+def test_an_inertia_about_its_own_axis_is_told_in_its_units(tmp_path, factor, wrong):
     """Most of the inertia is a rotor's: neither mass nor length of its arm is in question."""
     time = np.arange(0.0, 8.0, 1e-3)
     angle, rate = 1.2 * np.sin(3.0 * time), 3.6 * np.cos(3.0 * time)
     noise = 0.01 * np.random.default_rng(3).standard_normal(time.size)
-    torque = -0.12 * 9.0 * angle + 0.3 * np.sign(rate) + 0.01 * 9.81 * 0.02 * np.sin(angle) + noise
-    text = HINGE.format(mass=0.01, length=0.02).replace("normal_force = 2.0", f"normal_force = 1.0\ninertia = {0.12 * factor}")
+    torque = -0.12 * 9.0 * angle + 0.3 * np.sign(rate) + 1.0e-4 * 9.81 * 0.02 * np.sin(angle) + noise
+    text = HINGE.format(mass=1.0e-4, length=0.02).replace(
+        "normal_force = 2.0", f"normal_force = 1.0\ninertia = {0.12 * factor}"
+    )
     (tmp_path / "scenario.toml").write_text(text)
     file = csv(tmp_path / "run.csv", time__s=time, position__rad=angle, **{"torque__N m": torque})
-    with pytest.raises(InputError, match=rf"Probably inertia in .* is in {re.escape(unit)}: write inertia = 0.12 \(kg m\^2\)"):
+    with pytest.raises(InputError, match=rf"Probably inertia in .* is {re.escape(wrong)}: write inertia = 0.12 \(kg m\^2\)"):
         load_dataset(file, tmp_path / "scenario.toml")
 
 

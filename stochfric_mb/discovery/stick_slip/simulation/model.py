@@ -171,6 +171,11 @@ class Model:
         return sum(e.late for e in self.effects)
 
     @property
+    def drawn(self) -> bool:
+        """Whether its coefficients of friction are drawn; kicks leave them as they are."""
+        return self.process is not None or any(e.coefficient_process() is not None for e in self.effects)
+
+    @property
     def random(self) -> bool:
         """Whether its friction is random."""
         return self.process is not None or any(e.random and e.group != "sensor" for e in self.effects)

@@ -70,15 +70,17 @@ def _fit(decision: Decision, slip_study: Study, recalibrated: Fit) -> Fit:
     model = decision.model
     calm = deterministic(model)
     windows, uncertainty = slip_study.windows, slip_study.uncertainty
-    further = decision.seen.of(calm) if decision.seen is not None and calm.effects else None
-    if calm.effects:
-        starts = (calm, dataclasses.replace(calm, law=recalibrated.model.law, corrections=recalibrated.model.corrections))
-        fits = [refit(m, windows, uncertainty, evaluations=25, further=further, weigh=calm) for m in starts]
-        fit = min(fits, key=lambda f: f.objective)
-    else:
-        fit = recalibrated
+    further = None if decision.seen is None else decision.seen.of(calm)
+    if not calm.effects:
+        # forecasts follow the draws of the slips that they begin before; the slips, all of them, tell the mean of coefficients,
+        # but kicks are in their mean
+        fit = refit(calm, windows, uncertainty, evaluations=0) if model.drawn else recalibrated
+        return _joined(model, with_deviations(fit, windows, uncertainty), slip_study)
+    starts = (calm, dataclasses.replace(calm, law=recalibrated.model.law, corrections=recalibrated.model.corrections))
+    fits = [refit(m, windows, uncertainty, evaluations=25, further=further, weigh=calm) for m in starts]
+    fit = min(fits, key=lambda f: f.objective)
     if model.random:
-        # a fit to single forecasts follows the draws of the slips that they begin before; the slips, all of them, tell the mean
+        # of a scatter beside effects, too, where it forecasts better
         unmoved = refit(calm, windows, uncertainty, evaluations=0)
         fit = min(fit, unmoved, key=lambda f: sum(float(score(_joined(model, f, slip_study).model, w).sum()) for w in windows))
     return _joined(model, with_deviations(fit, windows, uncertainty, further=further), slip_study)
