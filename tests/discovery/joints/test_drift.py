@@ -8,6 +8,7 @@ import pytest
 
 from stochfric_mb.discovery.driven_joint import joint_outcome
 from stochfric_mb.discovery.driven_joint.balance.confounding import Confounded, by_state, one_curve
+from stochfric_mb.effects import words_of
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement import Dataset, Run
 from stochfric_mb.scenario import any_scenario_from_dict
@@ -123,6 +124,8 @@ def test_what_rose_together_is_said_by_itself():
     assert {result.effects[0].kind, *result.effects[0].equivalent_to} == drift
     said = " ".join(result.notes)
     assert "time and temperature are confounded here: one explains 100 %" in said
+    # they hide behind each other, not behind a mass
+    assert not any(f"{words_of(kind)} cannot be distinguished from a correction" in said for kind in drift)
 
 
 @pytest.mark.parametrize("warmth", [apart, with_time])

@@ -120,16 +120,13 @@ def _between_settings(place: PlaceOutcome) -> list[str]:
 
 
 def _imitated(place: PlaceOutcome) -> list[str]:
-    """Return the one-parameter effects, not selected, that corrections of the mechanism imitate."""
+    """Return the one-parameter effects that corrections of the mechanism imitate, but for what is named or could stand for it."""
     fit = place.selected.final
-    selected = {t.candidate.kind for t in place.selected.effects}
+    told = {t.candidate.kind for t in place.selected.effects}.union(*place.selected.equivalents)
     stage = place.selected.stages[0]
     tried = [*(t.candidate for t in stage.trials), *(c for c, _ in stage.faint)]
     return [
         c.kind
         for c in tried
-        if c.parameters == 1
-        and c.kind not in selected
-        and place.nuisances
-        and hidden_share(c.starts[0], place.fit, fit) > IMITATED
+        if c.parameters == 1 and c.kind not in told and place.nuisances and hidden_share(c.starts[0], place.fit, fit) > IMITATED
     ]
