@@ -38,7 +38,8 @@ Progress = Callable[[str], None]
 Simulated = tuple[list[PlaceOutcome], float | None]
 """Places with their simulations, and the noise of the drive."""
 ANSWERS = 3
-"""Answers that are tried, each without what led those before it: the held-out runs judge so many, and no more."""
+"""Answers that are tried, each without what led those before it: the held-out runs judge so many, and of several names one
+more, without the last."""
 CONTROLLED = {Cascade.kind: PrismaticJoint.kind, ProportionalDerivative.kind: Mjcf.kind}
 """Controller -> the mechanism that it drives."""
 

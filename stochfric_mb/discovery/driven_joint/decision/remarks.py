@@ -120,7 +120,7 @@ def _between_settings(place: PlaceOutcome) -> list[str]:
 
 
 def _imitated(place: PlaceOutcome) -> list[str]:
-    """Return the one-parameter effects that corrections of the mechanism imitate, but for what is named or could stand for it."""
+    """Return the one-parameter effects that corrections of the mechanism imitate, but for names and what could be instead."""
     fit = place.selected.final
     told = {t.candidate.kind for t in place.selected.effects}.union(*place.selected.equivalents)
     stage = place.selected.stages[0]
