@@ -38,8 +38,7 @@ Progress = Callable[[str], None]
 Simulated = tuple[list[PlaceOutcome], float | None]
 """Places with their simulations, and the noise of the drive."""
 ANSWERS = 3
-"""Answers that are tried, each without what led those before it: the held-out runs judge so many, and of several names one
-more, without the last."""
+"""Answers that are tried, each without what led those before it: the held-out runs judge so many, and no more."""
 CONTROLLED = {Cascade.kind: PrismaticJoint.kind, ProportionalDerivative.kind: Mjcf.kind}
 """Controller -> the mechanism that it drives."""
 
@@ -176,7 +175,7 @@ def _adequate(source: Balances, tell: Progress, places: Sequence[PlaceOutcome]) 
     One effect is asked for in the place of two that draw one curve: what is of neither kind would be named by chance then, as
     what is left of a series would.
     """
-    first = seen = _without_last(source, tell, simulated(source, tell, places))
+    first = seen = simulated(source, tell, places)
     stages: tuple[Stage, ...] = ()
     without = frozenset[str]()
     for _ in range(ANSWERS - 1):
@@ -197,20 +196,6 @@ def _adequate(source: Balances, tell: Progress, places: Sequence[PlaceOutcome]) 
         best, floor = simulated(source, tell, [best[0].again(frozenset({kind_with_signature(LATE)})), *best[1:]])
     best, floor = _less_refuted_delay(source, tell, best, floor)
     return [dataclasses.replace(best[0], beside=stages), *best[1:]], floor
-
-
-def _without_last(source: Balances, tell: Progress, seen: Simulated) -> Simulated:
-    """Return the places without the last name at the first one, if they are adequate without it and not with it.
-
-    What the first form leaves may look like another effect, which takes the first one along where a simulation refutes it.
-    """
-    place = seen[0][0]
-    names = place.selected.named
-    if len(names) < 2 or place.again is None or drawn_by_two(place) or not inadequate(place):
-        return seen
-    other = simulated(source, tell, [place.again(frozenset({names[-1]})), *seen[0][1:]])
-    named = other[0][0].selected.named
-    return other if named and named[0] == names[0] and not inadequate(other[0][0]) else seen
 
 
 def _less_refuted_delay(source: Balances, tell: Progress, best: list[PlaceOutcome], floor: float | None) -> Simulated:

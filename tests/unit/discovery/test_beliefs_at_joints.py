@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from stochfric_mb.discovery import criteria
-from stochfric_mb.discovery.driven_joint import joint_result, joint_workflow
+from stochfric_mb.discovery.driven_joint import joint_result
 from stochfric_mb.discovery.driven_joint.balance.confounding import Confounded, stand_ins
 from stochfric_mb.discovery.driven_joint.balance.force_balance import Nuisance
 from stochfric_mb.discovery.driven_joint.decision import findings, remarks
@@ -359,30 +359,3 @@ def test_laws_of_friction_stand_in_for_each_other_within_what_an_empirical_one_m
     for exact in ("joint_compliance", "quadratic_damping", "damping", "payload"):
         assert not as_good("friction_drift", exact, 0.1304, 0.00786, 0.00786)
         assert not as_good(exact, "friction_drift", 0.1304, 0.00786, 0.00786)
-
-
-@pytest.mark.parametrize(
-    ("names", "instead", "refuted", "kept"),
-    [
-        (("a", "b"), ("a",), {("a", "b")}, ("a",)),  # what a form leaves looked like b
-        (("a", "b"), ("a", "c"), {("a", "b")}, ("a", "c")),
-        (("a", "b"), ("a",), {("a", "b"), ("a",)}, ("a", "b")),  # no better: other answers are tried
-        (("a", "b"), ("c",), {("a", "b")}, ("a", "b")),  # the first name is not a's any more
-        (("a", "b"), ("a",), set(), ("a", "b")),
-        (("a",), (), {("a",)}, ("a",)),
-    ],
-)
-def test_a_last_name_that_is_refuted_goes_before_the_first(monkeypatch, names, instead, refuted, kept):
-    asked = []
-
-    def place(named, again=None):
-        return SimpleNamespace(selected=SimpleNamespace(named=named), again=again)
-
-    monkeypatch.setattr(joint_workflow, "simulated", lambda source, tell, places: (list(places), 0.1))
-    monkeypatch.setattr(joint_workflow, "inadequate", lambda p: "off" if p.selected.named in refuted else "")
-    monkeypatch.setattr(joint_workflow, "drawn_by_two", lambda p: ())
-    first = place(names, lambda without: asked.append(without) or place(instead))
-    other = place(("of", "another"))
-    (best, *more), floor = joint_workflow._without_last(None, print, ([first, other], 0.1))
-    assert (best.selected.named, more, floor) == (kept, [other], 0.1)
-    assert asked == ([frozenset({names[-1]})] if len(names) > 1 and names in refuted else [])
