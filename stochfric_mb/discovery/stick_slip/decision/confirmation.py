@@ -14,6 +14,7 @@ import numpy as np
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.inference.fitter import minimised
 from stochfric_mb.discovery.inference.free_parameter import LAW, FreeParameter, steps_of
+from stochfric_mb.discovery.inference.threads import in_threads
 from stochfric_mb.discovery.stick_slip.decision.cases import Case, predict
 from stochfric_mb.discovery.stick_slip.records.record import CORRECTED, Array
 from stochfric_mb.discovery.stick_slip.records.slips import N_FEATURES
@@ -116,8 +117,8 @@ def confirm(
             step = np.clip(step + np.array([away.get(k.name, 0.0) for k in free]) / steps.scale, steps.low, steps.high)
         return step
 
-    starts = [levelled(np.clip(s, steps.low, steps.high)) for s in _starts(candidate, free, steps.scale)]
-    first = min(starts, key=lambda s: float(np.sum(errors(s) ** 2)))
+    starts = in_threads(levelled, (np.clip(s, steps.low, steps.high) for s in _starts(candidate, free, steps.scale)))
+    first = min(zip(in_threads(errors, starts), starts, strict=True), key=lambda s: float(np.sum(s[0] ** 2)))[1]
     minimum = minimised(
         errors,
         first,
@@ -127,6 +128,7 @@ def confirm(
         evaluations=evaluations,
         tolerance=1.0e-3,
         stride=steps.stride,
+        threads=True,
     )
     n_parameters = _own(candidate, free)
     model = adjusted(candidate, free, steps.values(minimum.x))
