@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
 from collections.abc import Callable, Sequence
 
 import numpy as np
 import numpy.typing as npt
+from scipy.optimize import fminbound
 
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.balance.balances import Balances
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
-from stochfric_mb.discovery.driven_joint.balance.timing import LEAST_SAMPLES, Mask, Timing, shared, timing
+from stochfric_mb.discovery.driven_joint.balance.timing import LEAST_SAMPLES, MATERIAL, NAMED, Mask, Timing, shared, timing
 from stochfric_mb.discovery.driven_joint.decision.selection import Selected, Selector
 from stochfric_mb.discovery.driven_joint.decision.signs import sign_notes
 from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, fit, prior_weight
@@ -34,6 +36,8 @@ Array = npt.NDArray[np.float64]
 Progress = Callable[[str], None]
 HELD = 4
 """Delays from none to that of sampling and holding that are tried."""
+HELD_TOLERANCE = 0.02
+"""Error of a delay of sampling and holding, over the longest of them [-]."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -96,6 +100,9 @@ def _answered(asked: _Asked, without: frozenset[str]) -> PlaceOutcome:
         timing = timing.beside(*_better(selected, late, narrow, nuisances))
         if timing.named:  # the stated model knows nothing of the identified delay
             undelayed, selected, fit_balances = selected.recalibrated.model, late, balances
+    if timing is None or not timing.named:
+        base, selected = _held(asked, base, selected, without)
+        fit_balances = source.balances(name, "fit", base)
     nuisances = [*nuisances, *(n for n in selected.nuisances if all(n.name != known.name for known in nuisances))]
     delay = base + (timing.seconds if timing is not None and timing.named else 0.0)
     test_balances = source.balances(name, "test", delay)
@@ -144,18 +151,61 @@ def _answered(asked: _Asked, without: frozenset[str]) -> PlaceOutcome:
     )
 
 
+def _held(asked: _Asked, base: float, selected: Selected, without: frozenset[str]) -> tuple[float, Selected]:
+    """Return the delay to compensate and what is selected with it, where sampling and holding show beside what was selected.
+
+    Beside friction alone they may be a small part of what an effect leaves, and yet most of what is left beside the effect.
+    Further effects can stand in for them, so that each step of the selection is asked, the first one first.
+
+    Args:
+        asked: the place.
+        base: delay that is compensated already [s].
+        selected: what was selected with that.
+        without: kinds and numbers that are left out.
+    """
+    source, name = asked.source, asked.name
+    if not _has_inertia(source):
+        return base, selected
+    interval = source.dataset.fit[0].sample_interval
+    longest, width = LEAST_SAMPLES * interval, round(_half_width(source.balances(name, "fit", base)) / interval)
+    see = functools.cache(lambda delay: source.balances(name, "fit", base + delay, width))
+    same = shared([see(d) for d in (-longest, 0.0, longest)])
+    for step in (*(t.fit for t in selected.effects), selected.final):
+        seen = functools.cache(lambda d, s=step: _refitted(s, selected.nuisances, see(d), same))
+        found = float(
+            np.asarray(fminbound(lambda d, f=seen: f(float(d)).rms, -longest, longest, xtol=HELD_TOLERANCE * longest))
+        )
+        material = seen(found).rms < min(seen(-longest).rms, (1.0 - MATERIAL) * seen(0.0).rms, seen(longest).rms)
+        if material:
+            anew = asked.selector(base + found, source.stated(name), ", sampling and holding compensated").run(without)
+            better, _ = _better(selected, anew, [see(0.0), see(found)], selected.nuisances)
+            return (base + found, anew) if better > NAMED else (base, selected)
+    return base, selected
+
+
+def _has_inertia(source: Balances) -> bool:
+    """Return whether a motion could be late: a slow prescribed one has no inertia by which that would show."""
+    mechanism = source.dataset.scenario.mechanism
+    return not (isinstance(mechanism, PrismaticJoint) and mechanism.mass <= 0.0)
+
+
 def _timing(source: Balances, tell: Progress, name: str, balances: Sequence[ForceBalance]) -> Timing | None:
     """Return by how much the motion at a place may come late; None: it does not, or nothing could be late."""
-    mechanism, base = source.dataset.scenario.mechanism, source.stated_delay
-    if isinstance(mechanism, PrismaticJoint) and mechanism.mass <= 0.0:
-        return None  # a slow prescribed motion has no inertia by which it could be late
+    base = source.stated_delay
+    if not _has_inertia(source):
+        return None
     tell("timing")
     return timing(
         lambda d, w: source.balances(name, "fit", base + d, w),
         source.nuisances(name),
         source.dataset.fit[0].sample_interval,
-        float(np.median([s.window.half_width for s in balances])),
+        _half_width(balances),
     )
+
+
+def _half_width(balances: Sequence[ForceBalance]) -> float:
+    """Return the typical half width of the windows of balances [s]."""
+    return float(np.median([s.window.half_width for s in balances]))
 
 
 def _better(
@@ -163,7 +213,8 @@ def _better(
 ) -> tuple[float, bool]:
     """Return the evidence for a delay, and whether it explains more than it leaves, in loud windows and in typical ones.
 
-    The evidence is by how much the record is explained better with it, numbers counted.
+    The evidence is by how much the record is explained better with it, numbers counted. Of as good an explanation with more
+    numbers it need not explain what is left: that is noise.
 
     Args:
         plain: what was selected without it.
@@ -173,27 +224,30 @@ def _better(
         nuisances: numbers of the mechanism.
     """
     same = shared(balances)
-    without = [_refitted(plain, seen, same) for seen in balances[:-1]]
+    without = [_refitted(plain.final, plain.nuisances, seen, same) for seen in balances[:-1]]
     before = min(without, key=lambda f: f.rms)
-    after = _refitted(late, balances[-1], same)
+    after = _refitted(late.final, late.nuisances, balances[-1], same)
     n = max(sum(map(independent_count, after.remainders)), 4.0)  # timing shows within strokes, too
     more = len(after.free) + len(late.released) - len(before.free) - len(plain.released) + 1
     gain = float(np.log(before.rms / after.rms))
-    if more < 0 and gain > np.log(1.0 - criteria.MATERIAL):
+    alike = abs(gain) < -np.log(1.0 - criteria.MATERIAL)
+    if more < 0 and alike:
         gain = max(gain, 0.0)  # effects that leave less by no material part explain no more than the delay, which is simpler
     sizes = rms, lambda rest: deviation(rest, about=0.0)
     shares = [share_by_delay(without[0], after, balances[-1], nuisances, size) for size in sizes]
     evidence = 2.0 * n * gain + before.strain - after.strain - more * np.log(n)
-    return float(evidence), min(shares) >= criteria.EXPLAINED_BY_DELAY
+    return float(evidence), (more < 0 and alike) or min(shares) >= criteria.EXPLAINED_BY_DELAY
 
 
-def _refitted(selected: Selected, balances: Sequence[ForceBalance], windows: Sequence[Mask]) -> JointFit:
-    """Return the final model through other windows, some of them; what it released stays free.
+def _refitted(
+    fitted: JointFit, nuisances: Sequence[Nuisance], balances: Sequence[ForceBalance], windows: Sequence[Mask]
+) -> JointFit:
+    """Return a model of the selection through other windows, some of them; what it released stays free.
 
     Beliefs weigh as they did in the selection: through narrow windows what is left is mostly the noise of acceleration times
     mass, and a belief that weighs by it gives way to less mass, which is less noise.
     """
-    return fit(selected.final.model, balances, selected.nuisances, noise=prior_weight(selected.final), masks=windows)
+    return fit(fitted.model, balances, nuisances, noise=prior_weight(fitted), masks=windows)
 
 
 def share_by_delay(

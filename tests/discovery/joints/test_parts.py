@@ -106,6 +106,18 @@ def test_one_effect_is_named_and_measured(friction, kind, name, truth):
     assert result.gap.closed > 0.9
 
 
+def cogging(q, v):
+    return coulomb(q, v) + 3.0 * np.cos(2.0 * np.pi * q / 0.05 + 1.0)
+
+
+def test_half_a_sample_of_sampling_and_holding_is_no_further_effect():
+    """Beside friction alone it is a small part of what cogging leaves; beside cogging, friction imitates it."""
+    result = joint_outcome(pair(cogging, delay=0.5 * H)).result
+    assert [e.kind for e in result.effects] == ["position_dependent_force"]
+    # less than the noise in the baseline's own error; without it a tenth above the noise is left
+    assert result.gap.augmented == pytest.approx(joint_outcome(pair(cogging)).result.gap.augmented, rel=0.02)
+
+
 def worn_patch(q, v):
     return coulomb(q, v) * (1.0 + 0.4 * np.exp(-(((q - 0.03) / 0.04) ** 2)))
 
