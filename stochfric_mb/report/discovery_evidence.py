@@ -16,7 +16,7 @@ from stochfric_mb.discovery.stick_slip.records.pool import Pool
 from stochfric_mb.discovery.stick_slip.records.slips import Slips
 from stochfric_mb.discovery.stick_slip.screening.regression import baseline_of
 from stochfric_mb.discovery.stick_slip.simulation.forecast import MEMBERS, N_OUTPUTS, Windows, forecasts
-from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import HeldOut, deterministic
+from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import HeldOut
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.simulation.scatter import simulated_slips
 from stochfric_mb.discovery.stick_slip.study import Study
@@ -117,10 +117,10 @@ def gather(outcome: Outcome) -> Evidence | None:
     if outcome.result.verdict == "effect":
         models["augmented"] = augmented
     windows = tuple(w for w in outcome.runs.second if len(w))
-    calm = deterministic(augmented)
+    calm = augmented.mean
     study = outcome.study
     added = len(calm.effects) > len(study.model.effects) and outcome.result.verdict == "effect"
-    compared = {"recalibrated": deterministic(recalibrated)} | ({"augmented": calm} if added else {})
+    compared = {"recalibrated": recalibrated.mean} | ({"augmented": calm} if added else {})
     friction = {name: slip for name, m in compared.items() if (slip := _slip_friction(m, study.pool.slips[0])) is not None}
     return Evidence(
         windows=windows,

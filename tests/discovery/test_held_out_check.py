@@ -11,9 +11,12 @@ from stochfric_mb.discovery.inference.false_alarms import Evidence
 from stochfric_mb.discovery.result import Where
 from stochfric_mb.discovery.stick_slip import workflow
 from stochfric_mb.discovery.stick_slip.decision.decision import Named
+from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import HeldOut
+from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.validation import answers
-from stochfric_mb.discovery.stick_slip.validation.held_out_check import Comparison
+from stochfric_mb.discovery.stick_slip.validation.held_out_check import Comparison, compared
 from stochfric_mb.effects import make_effect
+from stochfric_mb.laws import make_law
 from tests.discovery.test_discover import plain
 from tests.discovery.unseen_forms.records import cases as unseen_cases
 from tests.discovery.unseen_forms.records import write_record
@@ -144,3 +147,9 @@ def test_what_is_noise_is_none_and_a_name_says_more_than_what_it_leaves(name, ve
     case = next(c for c in unseen_cases() if c.name == name)
     write_record(case, tmp_path / name, 10 * case.form.series + 1)
     assert discover(tmp_path / name / "data").result.verdict == verdict
+
+
+def test_nothing_is_compared_where_no_run_is_held_out():
+    """Of a contact that yields no held-out slip could be read: it ended in a traceback."""
+    model = Model(make_law("coulomb", mu_s=0.8, mu_k=0.46), {})
+    assert compared(model, model, HeldOut((), (), ())) is None

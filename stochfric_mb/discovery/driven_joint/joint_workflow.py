@@ -18,8 +18,9 @@ from stochfric_mb.discovery.driven_joint.decision.carry_over import with_idle, w
 from stochfric_mb.discovery.driven_joint.decision.selection import Stage
 from stochfric_mb.discovery.driven_joint.decision.signs import require_dissipation
 from stochfric_mb.discovery.driven_joint.decision.verdict import verdict
+from stochfric_mb.discovery.driven_joint.delay import share_by_delay
 from stochfric_mb.discovery.driven_joint.joint_result import JointOutcome, PlaceOutcome
-from stochfric_mb.discovery.driven_joint.place import place_outcome, share_by_delay
+from stochfric_mb.discovery.driven_joint.place import place_outcome
 from stochfric_mb.discovery.driven_joint.replaced_readings import as_named, as_stated, error_kept, with_readings
 from stochfric_mb.discovery.driven_joint.simulation.augmented import augmented
 from stochfric_mb.discovery.driven_joint.simulation.controller_check import controller_misfit, disbelieved

@@ -12,7 +12,6 @@ from stochfric_mb.discovery.inference.intervals import confidence_interval
 from stochfric_mb.discovery.result import EffectEstimate, Interval, Where
 from stochfric_mb.discovery.stick_slip.decision.decision import Named
 from stochfric_mb.discovery.stick_slip.records.record import CORRECTED
-from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import deterministic
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.simulation.refit import Fit
 from stochfric_mb.discovery.stick_slip.study import Study
@@ -36,7 +35,7 @@ def effect_estimate(named: Named, fit: Fit | None, model: Model, study: Study) -
     run = next(iter(model.own), "")
     effect = model.effects_in(run)[place]
     # a fit knows the effects that are not random alone
-    fitted = len(deterministic(dataclasses.replace(model, effects=model.effects[:place], own={})).effects)
+    fitted = len(dataclasses.replace(model, effects=model.effects[:place], own={}).mean.effects)
     time = sum(s.record.duration for s in study.pool.slips)
     drawn = effect.deviations(effect.draws(time, max(study.baseline.regression.n, 2)))
     for field in dataclasses.fields(effect):

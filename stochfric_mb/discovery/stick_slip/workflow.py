@@ -24,7 +24,6 @@ from stochfric_mb.discovery.stick_slip.screening.power import smallest
 from stochfric_mb.discovery.stick_slip.simulation.deviations import with_deviations
 from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import (
     HeldOut,
-    deterministic,
     gap_of,
     held_out,
     phased,
@@ -203,7 +202,7 @@ def augmented_scenario(dataset: Dataset, model: Model) -> Scenario:
 
 def recalibrated_model(model: Model, study: Study) -> Fit:
     """Return the model as stated, fitted within its uncertainty; its scatter, if any is declared, stays as declared."""
-    stated = dataclasses.replace(deterministic(model), corrections=dict.fromkeys(CORRECTED, 0.0))
+    stated = dataclasses.replace(model.mean, corrections=dict.fromkeys(CORRECTED, 0.0))
     mu_s, mu_k = (float(max(c, 1.0e-5)) for c in study.baseline.solution.coefficients[:2])
     shown = dataclasses.replace(stated, corrections=study.pool.slips[0].record.corrections).with_law(mu_s, mu_k)
     # where errors are large their sizes, to which a fit keeps, lead it nowhere: squares do, and sizes from there

@@ -9,10 +9,12 @@ from stochfric_mb.discovery.inference.free_parameter import LAW, MECHANISM
 from stochfric_mb.discovery.stick_slip.records.record import make_record
 from stochfric_mb.discovery.stick_slip.simulation.model import Model, adjusted, free_parameters
 from stochfric_mb.discovery.stick_slip.simulation.natural_units import NaturalUnits
+from stochfric_mb.discovery.stick_slip.simulation.prior_model import prior_model
 from stochfric_mb.effects import make_effect
 from stochfric_mb.errors import SimulationError
 from stochfric_mb.laws import make_law
 from stochfric_mb.mechanisms import BeltBox
+from stochfric_mb.scenario import Scenario
 
 UNCERTAINTY = {"stiffness": 0.02, "mass": 0.02, "damping": 0.3}
 RUNS = ("run_1.csv", "run_2.csv")
@@ -111,3 +113,30 @@ def test_waves_are_left_out_with_their_phases_and_what_is_along_the_stroke_is_no
     assert left.effects == (*model.effects, along_stroke)
     assert left.own == {run: (*values, {}) for run, values in model.own.items()}
     assert fuller.without_waves(()) == fuller
+
+
+def test_a_mean_that_is_fitted_leaves_what_is_random_in_its_place(model):
+    """Phases of single runs were those of a model without the kick: asking again ended in a traceback."""
+    kicks = make_effect("impacts", rate=2.0, impulse=0.01)
+    drag, force = model.effects
+    whole = dataclasses.replace(
+        model, effects=(drag, kicks, force), own={run: (values[0], {}, values[1]) for run, values in model.own.items()}
+    )
+    assert whole.mean == model
+    louder = dataclasses.replace(
+        model, effects=(drag, dataclasses.replace(force, amplitude=0.5)), own={RUNS[0]: ({}, {"phase": 1.0})}
+    )
+    joined = whole.with_mean(louder)
+    assert joined.mean == louder
+    assert joined.effects_in(RUNS[0]) == (drag, kicks, dataclasses.replace(force, amplitude=0.5, phase=1.0))
+
+
+def test_an_effect_that_draws_coefficients_declares_their_process():
+    """The scenario that discovery writes states it so: it was a second process beside the one that is looked for."""
+    drag = make_effect("quadratic_damping", coefficient=40.0)
+    drawn = make_effect("random_coefficients", process="per_event", sigma_s=0.02, sigma_k=0.01, spacing=0.1)
+    law = make_law("coulomb", mu_s=0.8, mu_k=0.46)
+    stated = prior_model(Scenario(mechanism=BOX, law=law, duration=1.0, output_step=1e-3, effects=(drawn, drag)))
+    assert stated.effects == (drag,)
+    assert stated.process == drawn.coefficient_process()
+    assert not stated.mean.random

@@ -118,7 +118,7 @@ def sought(make: Callable[[float], Sequence[ForceBalance]], names: Sequence[str]
     Raises:
         InputError: the runs are too short for the longest delays.
     """
-    span = min(LONGEST, SHORT_RUN * min(float(np.ptp(b.time)) for b in make(0.0)))
+    span = longest_of(make(0.0))
     grid = np.linspace(-span, span, GRID)
     same = shared([make(d) for d in grid[[0, -1]]])
     if sum(int(m.sum()) for m in same) < FEWEST:
@@ -146,6 +146,11 @@ def sought(make: Callable[[float], Sequence[ForceBalance]], names: Sequence[str]
     material = inside and gain > MATERIAL
     within = confidence_interval(delay, deviation, "s")
     return Timing(delay, within.low, within.high, float(score) if material else 0.0, gain, width)
+
+
+def longest_of(balances: Sequence[ForceBalance]) -> float:
+    """Return the longest delay, either way, that runs can show [s]."""
+    return min(LONGEST, SHORT_RUN * min(float(np.ptp(b.time)) for b in balances))
 
 
 def lowest(x: Array, y: Array) -> float:

@@ -203,9 +203,9 @@ def _floor(load: float) -> Array:
 def predict(model: Model, case: Case) -> Array | None:
     """Return the features that the model predicts for a case [N], shape (N_FEATURES,); None where it does not slip so.
 
-    A declared scatter is left out: medians are compared, and one draw of it is not the median.
+    What is random is left out: medians are compared, and one draw of it is not the median.
     """
-    model = dataclasses.replace(model.without_waves(case.averaged), process=None)
+    model = model.without_waves(case.averaged).mean
     record = case.record
     box = record.mechanism
     margin = 3.3 / record.angular_frequency

@@ -18,7 +18,7 @@ from stochfric_mb.discovery.stick_slip.records.pool import LEAST_DWELL, Pool
 from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.records.slips import N_FEATURES, Slips
 from stochfric_mb.discovery.stick_slip.screening.regression import Baseline, baseline_of
-from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import deterministic, phased
+from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import phased
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.simulation.phases import in_phase
 from stochfric_mb.discovery.stick_slip.simulation.refit import REFIT_WINDOWS, refit
@@ -56,14 +56,15 @@ def beyond_stated(study: Study) -> Study:
     """
     if not study.model.says_more:
         return study
-    model = study.model
-    if phased(model):
+    mean = study.model.mean
+    if phased(mean):
         for windows in study.windows:
-            model = dataclasses.replace(model, own=in_phase(deterministic(model), windows).own) if len(windows) else model
-        study = dataclasses.replace(study, model=model)
-    model = refit(model, study.windows, study.uncertainty, most=REFIT_WINDOWS, evaluations=20).model
-    study = retaken(study, model.corrections)
-    left = left_by(deterministic(model), study, study.baseline, anew=model.shapes_slips)
+            mean = in_phase(mean, windows) if len(windows) else mean
+        study = dataclasses.replace(study, model=study.model.with_mean(mean))
+    # one draw of what is random tells nothing of its mean
+    mean = refit(mean, study.windows, study.uncertainty, most=REFIT_WINDOWS, evaluations=20).model
+    study = retaken(study, mean.corrections)
+    left = left_by(mean, study, study.baseline, anew=mean.shapes_slips)
     if left is None:
         return study
     # of the same slips, at the scatter that the stated model has not explained yet, as a candidate's evidence is taken

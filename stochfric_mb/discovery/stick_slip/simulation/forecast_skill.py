@@ -65,8 +65,8 @@ def settled(model: Model, runs: HeldOut) -> Model:
     model = _stepped(model, runs)
     if not phased(model):
         return model
-    calm = deterministic(model)
-    kept = lasting(model)
+    calm = model.mean
+    kept = model.lasting
     for windows in runs.first:
         if len(windows):
             run = windows.record.name
@@ -94,16 +94,6 @@ def _stepped(model: Model, runs: HeldOut) -> Model:
         for place, size, time in zip(places, sizes, when, strict=True):
             model = with_steps(model, {slips.record.name: (float(size), time)}, place)
     return model
-
-
-def deterministic(model: Model) -> Model:
-    """Return the model without what is random in it: its mean."""
-    return dataclasses.replace(model.keeping(lasting(model)), process=None)
-
-
-def lasting(model: Model) -> list[int]:
-    """Return the places of the effects that are not random: those of `deterministic`."""
-    return [i for i, e in enumerate(model.effects) if not e.random]
 
 
 def scores(model: Model, runs: HeldOut) -> Array:

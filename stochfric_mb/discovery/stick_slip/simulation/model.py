@@ -161,6 +161,26 @@ class Model:
         return dataclasses.replace(self, own={**self.own, run: tuple(own)})
 
     @property
+    def lasting(self) -> list[int]:
+        """Places of the effects that are not random: those of its mean."""
+        return [i for i, e in enumerate(self.effects) if not e.random]
+
+    @property
+    def mean(self) -> Model:
+        """The model without what is random in it."""
+        return dataclasses.replace(self.keeping(self.lasting), process=None)
+
+    def with_mean(self, mean: Model) -> Model:
+        """Return the model with the numbers of its `mean`, fitted: what is random stays as it is."""
+        effects = list(self.effects)
+        for place, effect in zip(self.lasting, mean.effects, strict=False):
+            effects[place] = effect
+        model = dataclasses.replace(self, law=mean.law, corrections=mean.corrections, effects=tuple(effects), own={})
+        for run, values in mean.own.items():
+            model = model.with_own(run, self.lasting, values)
+        return model
+
+    @property
     def left_open(self) -> frozenset[str]:
         """Names of the numbers whose priors are widened: those that effects leave open, and `freed` ones."""
         return self.freed.union(*(e.frees for e in self.effects))

@@ -23,6 +23,8 @@ NOT_STATED = "the scenario states no [uncertainty]; taken were " + ", ".join(
 def prior_model(scenario: Scenario) -> Model:
     """Return the stated model: the scenario's law, process and effects, nothing corrected yet.
 
+    An effect that draws coefficients declares the process that they are drawn from.
+
     Raises:
         InputError: a law that the simulator of discovery does not take.
     """
@@ -31,8 +33,10 @@ def prior_model(scenario: Scenario) -> Model:
             f"law {scenario.law.kind!r} cannot be the stated law of a discovery; use one of {', '.join(LAWS)} "
             "(a regularised law is a Coulomb law that creeps: state the Coulomb law it stands for)"
         )
-    effects = tuple(getattr(scenario, "effects", ()))
-    return Model(scenario.law, {}, effects, scenario.process, stated=frozenset(effects))
+    stated = {e: e.coefficient_process() for e in getattr(scenario, "effects", ())}
+    effects = tuple(e for e, process in stated.items() if process is None)
+    process = next((p for p in (scenario.process, *stated.values()) if p is not None), None)
+    return Model(scenario.law, {}, effects, process, stated=frozenset(effects))
 
 
 def assumed(dataset: Dataset) -> Dataset:

@@ -21,9 +21,7 @@ from stochfric_mb.discovery.stick_slip.simulation.forecast import score
 from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import (
     HeldOut,
     as_split_for,
-    deterministic,
     floor_of,
-    lasting,
     mean_score,
     settled,
 )
@@ -68,7 +66,7 @@ def fitted(decision: Decision, slip_study: Study, recalibrated: Fit) -> Answer:
 
 def _fit(decision: Decision, slip_study: Study, recalibrated: Fit) -> Fit:
     model = decision.model
-    calm = deterministic(model)
+    calm = model.mean
     windows, uncertainty = slip_study.windows, slip_study.uncertainty
     further = None if decision.seen is None else decision.seen.of(calm)
     if not calm.effects:
@@ -88,14 +86,7 @@ def _fit(decision: Decision, slip_study: Study, recalibrated: Fit) -> Fit:
 
 def _joined(model: Model, fit: Fit, slip_study: Study) -> Fit:
     """Return a fit of a model's mean with what is random in the model, its strength matched to the slips."""
-    places = lasting(model)
-    effects = list(model.effects)
-    for place, effect in zip(places, fit.model.effects, strict=False):
-        effects[place] = effect
-    joined = dataclasses.replace(model, law=fit.model.law, corrections=fit.model.corrections, effects=tuple(effects), own={})
-    for run, values in fit.model.own.items():
-        joined = joined.with_own(run, places, values)
-    return dataclasses.replace(fit, model=matched(joined, slip_study.pool))
+    return dataclasses.replace(fit, model=matched(model.with_mean(fit.model), slip_study.pool))
 
 
 def explaining(answer: Answer, slip_study: Study, recalibrated: Fit) -> Answer:
@@ -316,7 +307,7 @@ def _with_strengths(answer: Answer, slip_study: Study, recalibrated: Fit) -> Ans
 
 def _held_at(fit: Fit, kind: str, slip_study: Study, strength: float) -> float:
     """Return twice the log likelihood ratio of a fit to the same with a kind's only strength held at a value [-]."""
-    model = deterministic(fit.model)
+    model = fit.model.mean
     (name,) = (k.name for k in fit.free if k.owner >= 0 and k.name in STRENGTHS and model.effects[k.owner].kind == kind)
     effects = tuple(e.changed(**{name: strength}) if e.kind == kind else e for e in model.effects)
     held = dataclasses.replace(model, effects=effects, measured={**model.measured, name: 0.0})

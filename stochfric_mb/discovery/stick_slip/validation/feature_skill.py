@@ -18,7 +18,6 @@ from stochfric_mb.discovery.stick_slip.records.calibration import Calibration, c
 from stochfric_mb.discovery.stick_slip.records.pool import make_pool
 from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.records.slips import N_FEATURES, Slips
-from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import deterministic
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.statistics import crps_normal
 
@@ -101,7 +100,7 @@ def _scores(models: Sequence[Model], slips: Slips, calibration: Calibration, row
 
 def _expected(model: Model, slips: Slips, dwell: Array, rows: np.ndarray) -> Array:
     """Return the features that a model expects of some slips [N], without what the extraction adds, shape (n, N_FEATURES)."""
-    calm = deterministic(model)
+    calm = model.mean
     bare = model.bare(slips.record)
     forced = slips.record.mechanism.excitation_amplitude != 0.0
     added = plain_features(slips, bare, dwell, rows, forced=forced)

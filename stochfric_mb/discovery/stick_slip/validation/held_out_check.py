@@ -8,8 +8,7 @@ import numpy as np
 
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.inference.paired import paired
-from stochfric_mb.discovery.stick_slip.simulation.forecast import score
-from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import HeldOut, floor_of
+from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import HeldOut, floor_of, scores
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 
 
@@ -56,7 +55,7 @@ class Comparison:
 
 def compared(without: Model, with_: Model, runs: HeldOut) -> Comparison | None:
     """Return how two models, phases estimated already, forecast held-out runs; None where there are too few forecasts."""
-    first, second = (np.concatenate([score(m, w) for w in runs.second]) for m in (without, with_))
+    first, second = scores(without, runs), scores(with_, runs)
     if len(first) < 3:  # no standard error
         return None
     seen = paired(first, second)

@@ -22,7 +22,6 @@ from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.records.slips import N_FEATURES
 from stochfric_mb.discovery.stick_slip.screening.competitors import step_times
 from stochfric_mb.discovery.stick_slip.screening.regression import LOWEST, Baseline, Regression, stated_terms
-from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import deterministic
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.simulation.scatter import simulated_slips
 from stochfric_mb.discovery.stick_slip.study import Study
@@ -81,7 +80,7 @@ def inadequate(study: Study, model: Model) -> tuple[Where | None, dict[str, list
     """
     if any({LATE, CLIPPED} & set(e.signatures) for e in model.effects):
         return None, {}  # the forces of such a record are not those of its slips
-    calm = deterministic(model)
+    calm = model.mean
     try:
         left = _left(study.pool, calm, study.uncertainty, random=model.random)
         if left is None:

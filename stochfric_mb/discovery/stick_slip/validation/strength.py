@@ -13,7 +13,6 @@ from collections.abc import Callable
 
 import numpy as np
 
-from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import deterministic
 from stochfric_mb.discovery.stick_slip.simulation.model import STRENGTHS, Model
 from stochfric_mb.discovery.stick_slip.simulation.refit import Fit
 
@@ -30,7 +29,7 @@ def undecided(fit: Fit, model: Model) -> list[str]:
         fit: the fit of the model's effects that are not random.
         model: the model.
     """
-    owners = deterministic(model).effects
+    owners = model.mean.effects
     first = {e.kind: i for i, e in reversed(list(enumerate(owners)))}
     decided: dict[str, bool] = {}
     for i in _strengths(fit):
@@ -52,7 +51,7 @@ def decided_by_ratio(fit: Fit, model: Model, kind: str, ratio: float, held_at: C
         ratio: twice the log likelihood ratio to a fit without the effect [-].
         held_at: from a strength to the same of a fit in which it is held there.
     """
-    owners = deterministic(model).effects
+    owners = model.mean.effects
     strengths = [i for i in _strengths(fit) if owners[fit.free[i].owner].kind == kind]
     if len(strengths) != 1:
         return fit
