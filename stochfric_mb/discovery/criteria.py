@@ -288,9 +288,10 @@ EXPLAINED_AT_JOINTS = 0.7
 """Share of the squared error above the noise, on the fit runs, that one late position column of several must explain [-]:
 chosen between 0.77, load dependence in the measured O-ring seal, and 0.66, a drift in the place of a bearing that seizes."""
 WINDOWS_A_NUMBER = 4.0
-"""Independent windows that a record must have for each number of a course at a joint [-]: with as many numbers as windows a
-course leaves nothing of anything, and the score, which holds where numbers are few among many, says nothing. Chosen: a swing-up
-of 14 windows took 18 numbers, a worn patch of a test, which is one, 10 of 90."""
+"""Independent windows that a record must have for each number of a course at a joint, and of a step of the selection that is
+asked for a delay [-]: with as many numbers as windows either leaves nothing of anything, and the score, which holds where they
+are few among many, says nothing. Chosen: a swing-up of 14 windows took 18 numbers, a worn patch of a test, which is one, 10 of
+90."""
 EXPLAINED_BY_DELAY = 0.5
 """The same for a delay of all positions, with the effects beside it, of the mean square and of the square of the median size,
 for a delay is there all along a motion [-]: more is explained than is left. Delays, filters and measured swing-ups come to

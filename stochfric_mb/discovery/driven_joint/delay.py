@@ -106,6 +106,8 @@ class DelaySearch:
     def beside(self, selected: Selected, held: float, further: float) -> Timing | None:
         """Return the delay with which a step of the selection leaves less by a material part, the first one first; None: none.
 
+        With about as many numbers as windows a step leaves nothing with any delay.
+
         Args:
             selected: what was selected.
             held: delay with which it was [s].
@@ -117,7 +119,8 @@ class DelaySearch:
         balances = self.see(held, None)
         width, longest = round(half_width(balances) / self.interval), longest_of(balances)
         see = functools.cache(lambda delay: self.see(held + delay, width))
-        for step in (*(t.fit for t in selected.effects), selected.final):
+        steps = (*(t.fit for t in selected.effects), selected.final)
+        for step in (s for s in steps if s.n >= criteria.WINDOWS_A_NUMBER * len(s.free)):
             low, high = min(-self.shortest, FURTHER * further), max(self.shortest, FURTHER * further)
             while True:
                 grid = np.unique(np.r_[np.linspace(low, high, GRID), 0.0].round(12))

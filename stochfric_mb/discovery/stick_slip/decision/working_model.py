@@ -130,7 +130,7 @@ class WorkingModel:
         fitted &= not (chosen.simulated and without.random)
         if fitted and not self._refitted(without):
             self.confirmed, self.simulated = simulated  # what is simulated is the model that stands
-            return False
+            return kind in self.kinds and self._beside(chosen.candidate)
         if harmonic is None and kind not in self.kinds:
             evidence = likely("slips", chosen.candidate.score)
             self.named.append(selected(kind, evidence, before, chosen.class_, self.shape_left))
@@ -198,6 +198,18 @@ class WorkingModel:
         idle = bool(self.named) and fit.cost > least
         self.model = without if idle else fit.model
         return not idle
+
+    def _beside(self, more: Candidate) -> bool:
+        """Look for others beside the marks of more of an effect that forecasts do not bear out; return whether to go on.
+
+        They are what its numbers miss while something else is missing. Slips that simulated ones are compared with scatter less
+        beside them, too.
+        """
+        self.faults += more.hypothesis.columns
+        self._take_out()
+        if not self.simulated:
+            self.cases, self.confirmed = [], None
+        return not self.stalled
 
     def _put_on_time(self) -> None:
         """Go on with the records put on time, by the delay that their forecasts show."""
