@@ -137,6 +137,9 @@ BELT_TOO_MUCH = 0.03
 wrong by as much as a weak effect is strong."""
 BELT_DOUBT = 5.0
 """Standard deviations that an error must reach [-]."""
+BELT_RESTS = 0.2
+"""Speed of the box where it seems to stick, over the belt's, below which it rests, and slides on: a belt five times too slow is
+no slip of the pen, and of units other errors tell."""
 PHASE_ACCIDENT, PHASE_MOST_ACCIDENTS = 3.0, 0.25
 """Misfit of a stick phase over that of the others from which on it is an accident, and the share of the phases that may
 be; more of them are the rule [-]. Of phases of noise that is slower than a tenth of them 1 in 100 is set aside."""

@@ -154,7 +154,8 @@ def _left_in_forces(forces: Gap | None) -> list[str]:
         return []
     return [
         f"the forces of held-out slips are off by {forces.augmented:.3g} times their noise with what is named, "
-        f"{forces.floor:.3g} if the model were true: more is missing, or a number is farther off than its interval says"
+        f"{forces.recalibrated:.3g} without it, {forces.floor:.3g} if the model "
+        "were true: more is missing, or a number is farther off than its interval says"
     ]
 
 

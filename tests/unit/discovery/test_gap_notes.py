@@ -6,6 +6,7 @@ from types import SimpleNamespace
 import pytest
 
 from stochfric_mb.discovery.result import Gap
+from stochfric_mb.discovery.stick_slip.belt_speed import BeltSpeed
 from stochfric_mb.discovery.stick_slip.notes import _of_one_pace, _of_several_tones
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.effects import make_effect
@@ -51,3 +52,11 @@ def test_tones_beside_the_first_one_are_spoken_of():
     (note,) = _of_several_tones(Model(law=None, corrections={}, effects=(*tones, alone)))
     assert note.startswith("belt_speed_ripple is a wave of 2 tones, 3.57, 7.14 Hz")
     assert _of_several_tones(Model(law=None, corrections={}, effects=(tones[0], alone))) == []
+
+
+@pytest.mark.parametrize(("ratio", "said"), [(0.9, "measure the belt's speed"), (0.077, "slides on without sticking")])
+def test_a_box_that_rests_says_nothing_of_the_belt(ratio, said):
+    """Kicks that keep a box sliding for a while gave the advice to state a belt 13 times slower."""
+    seen = BeltSpeed("run_3", ratio, 2.547e-3)
+    assert said in seen.advice
+    assert ("check the belt velocity" in seen.note) is not seen.rests
