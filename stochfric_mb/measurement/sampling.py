@@ -13,6 +13,9 @@ Array = npt.NDArray[np.float64]
 
 UNIFORM = 0.01
 """Time stamps this close to a uniform grid are on it [sample intervals]: interpolation would change less than noise does."""
+MOSTLY = 0.1
+"""Share of rows in which what is named the time falls, from which on it is no time but another column [-]: a box in stick-slip
+goes back for less than a period of it, a file that was joined falls once."""
 GAP = 4.0
 """Distance between two samples from which samples are missing, not late [median distances]."""
 MIN_SAMPLES, MIN_PIECE = 30, 50
@@ -60,6 +63,12 @@ def require_growing(time: Array, places: Places) -> None:
     bad = np.flatnonzero(steps <= 0.0)
     if not bad.size:
         return
+    falls = int((steps < 0.0).sum())
+    if falls > MOSTLY * len(time):
+        raise InputError(
+            f"{places.at(bad[0] + 1)}: the time falls in {falls} of {len(time)} rows: that is no time; were two columns swapped, "
+            "or was the record turned round?"
+        )
     i = int(bad[0])
     n = f" ({bad.size} such rows)" if bad.size > 1 else ""
     if steps[i] == 0.0:

@@ -266,6 +266,10 @@ def broken(sample, value):
         ({"t__s": TIME, "position__m": POSITION}, r"no column is time; its columns are 't', 'position'"),
         ({"time__s": TIME, "x__m": POSITION}, r"no column is a known quantity; its columns are 'time', 'x'"),
         ({"time__s": broken(9, 0.2), "position__m": POSITION}, r"line 11: time falls from 0\.258 s to 0\.2 s; sort the rows"),
+        (
+            {"time__s": np.sin(40.0 * TIME), "position__m": TIME},
+            r"line \d+: the time falls in \d+ of \d+ rows: that is no time;",
+        ),
         ({"time__s": broken(9, TIME[8]), "position__m": POSITION}, r"line 11: time stamp 0\.258 s is there twice; remove"),
         ({"time__s": broken(9, np.nan), "position__m": POSITION}, r"line 11: time is nan, a missing value"),
         ({"time__s": TIME, "position__m": broken(9, np.inf)}, r"line 11: position is missing or not finite; remove or correct"),
