@@ -66,8 +66,8 @@ def require_growing(time: Array, places: Places) -> None:
     falls = int((steps < 0.0).sum())
     if falls > MOSTLY * len(time):
         raise InputError(
-            f"{places.at(bad[0] + 1)}: the time falls in {falls} of {len(time)} rows: that is no time; were two columns swapped, "
-            "or was the record turned round?"
+            f"{places.at(bad[0] + 1)}: the time falls in {falls} of {len(time)} rows: that is no time; were two "
+            "columns swapped, or was the record turned round?"
         )
     i = int(bad[0])
     n = f" ({bad.size} such rows)" if bad.size > 1 else ""
