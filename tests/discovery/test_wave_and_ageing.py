@@ -47,4 +47,5 @@ def test_ageing_beside_a_wave_is_no_scatter():
     assert [e.kind for e in result.effects] == ["normal_load_ripple", "dwell_ageing"]
     amplitude = result.effects[0].parameters["amplitude"].value
     assert abs(amplitude - AMPLITUDE) < 0.02 * AMPLITUDE  # it is off by 0.05 of it without the ageing
-    assert result.gap.augmented < 1.5 * result.gap.floor
+    # the noise and that of a start; a floor of the model's own would vouch for any scatter, which left 24 um at the stranger's
+    assert result.gap.augmented < 1.5 * NOISE

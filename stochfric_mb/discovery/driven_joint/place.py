@@ -38,7 +38,10 @@ class _Asked:
     source: Balances
     name: str
     tell: Progress
+    timed: bool
+    """Whether a delay is looked for."""
     timing: Timing | None
+    """Delay that shows beside friction."""
     selectors: dict[float, Selector] = dataclasses.field(default_factory=dict[float, Selector])
     """Delay that is compensated [s] -> selection with it: answers share what they begin with."""
 
@@ -52,7 +55,7 @@ class _Asked:
     def delayed(self, start: JointModel, without: frozenset[str]) -> Delayed:
         """Return what is selected without some kinds and numbers, and with which delay."""
         source, known = self.source, self.source.stated_delay
-        if kind_with_signature(LATE) in without or not _has_inertia(source):
+        if not self.timed or kind_with_signature(LATE) in without:
             selected = self.selector(known, start, "").run(without)
             return Delayed(known, known, None, selected, selected)
         search = DelaySearch(
@@ -80,8 +83,9 @@ def place_outcome(source: Balances, tell: Progress, name: str, notes: list[str],
     """
     balances = source.balances(name, "fit", source.stated_delay)
     notes += sign_notes(source.dataset, name, balances)
+    timed = timed and _has_inertia(source)
     late = _timing(source, tell, name, balances) if timed else None
-    return _answered(_Asked(source, name, tell, late), frozenset())
+    return _answered(_Asked(source, name, tell, timed, late), frozenset())
 
 
 def _answered(asked: _Asked, without: frozenset[str]) -> PlaceOutcome:
@@ -141,9 +145,7 @@ def _answered(asked: _Asked, without: frozenset[str]) -> PlaceOutcome:
 
 
 def _timing(source: Balances, tell: Progress, name: str, balances: Sequence[ForceBalance]) -> Timing | None:
-    """Return by how much the motion at a place may come late beside friction; None: it does not, or nothing could be late."""
-    if not _has_inertia(source):
-        return None
+    """Return by how much the motion at a place may come late beside friction; None: it does not."""
     tell("timing")
     return timing(
         lambda d, w: source.balances(name, "fit", source.stated_delay + d, w),

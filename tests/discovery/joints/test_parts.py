@@ -114,7 +114,7 @@ def test_half_a_sample_of_sampling_and_holding_is_no_further_effect():
     """Beside friction alone it is a small part of what cogging leaves; beside cogging, friction imitates it."""
     result = joint_outcome(pair(cogging, delay=0.5 * H)).result
     assert [e.kind for e in result.effects] == ["position_dependent_force"]
-    # less than the noise in the baseline's own error; without it a tenth above the noise is left
+    # a fifth of the tenth by which the error is larger without it
     assert result.gap.augmented == pytest.approx(joint_outcome(pair(cogging)).result.gap.augmented, rel=0.02)
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.inference.false_alarms import likely
 from stochfric_mb.discovery.stick_slip.decision.cases import Case, cases_of
-from stochfric_mb.discovery.stick_slip.decision.choice import Chosen
+from stochfric_mb.discovery.stick_slip.decision.choice import REFUTED, Chosen
 from stochfric_mb.discovery.stick_slip.decision.confirmation import Confirmed, SeenInSlips, confirm
 from stochfric_mb.discovery.stick_slip.decision.decision import Finding, Named, selected, term_of
 from stochfric_mb.discovery.stick_slip.decision.innovations import beyond_stated, left_by
@@ -130,7 +130,7 @@ class WorkingModel:
         fitted &= not (chosen.simulated and without.random)
         if fitted and not self._refitted(without):
             self.confirmed, self.simulated = simulated  # what is simulated is the model that stands
-            return kind in self.kinds and self._beside(chosen.candidate)
+            return kind in self.kinds and self._beside(chosen.candidate, details)
         if harmonic is None and kind not in self.kinds:
             evidence = likely("slips", chosen.candidate.score)
             self.named.append(selected(kind, evidence, before, chosen.class_, self.shape_left))
@@ -199,16 +199,17 @@ class WorkingModel:
         self.model = without if idle else fit.model
         return not idle
 
-    def _beside(self, more: Candidate) -> bool:
+    def _beside(self, more: Candidate, details: dict[str, object]) -> bool:
         """Look for others beside the marks of more of an effect that forecasts do not bear out; return whether to go on.
 
         They are what its numbers miss while something else is missing. Slips that simulated ones are compared with scatter less
-        beside them, too.
+        beside them, too, and are taken anew: what was refuted with the others may stand.
         """
         self.faults += more.hypothesis.columns
         self._take_out()
         if not self.simulated:
-            self.cases, self.confirmed = [], None
+            self.cases, self.confirmed, self.unaided = [], None, None
+            details.pop(REFUTED, None)
         return not self.stalled
 
     def _put_on_time(self) -> None:
