@@ -14,8 +14,8 @@ Array = npt.NDArray[np.float64]
 UNIFORM = 0.01
 """Time stamps this close to a uniform grid are on it [sample intervals]: interpolation would change less than noise does."""
 MOSTLY = 0.1
-"""Share of rows in which what is named the time falls, from which on it is another column, or runs backwards [-]: a file that was
-joined falls once; a position that swings falls in half of its rows, one in stick-slip in each slip."""
+"""Share of rows in which what is named the time falls, from which on it is another column, or runs backwards [-]: a file that
+was joined falls once; a position that swings falls in half of its rows, one in stick-slip in each slip."""
 GAP = 4.0
 """Distance between two samples from which samples are missing, not late [median distances]."""
 MIN_SAMPLES, MIN_PIECE = 30, 50
