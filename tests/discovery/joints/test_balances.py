@@ -9,6 +9,7 @@ from stochfric_mb.discovery.driven_joint.balance.balances import Balances
 from stochfric_mb.discovery.driven_joint.simulation.scores import APART, floor_from, noise_floor, white_floor
 from stochfric_mb.discovery.driven_joint.source import source_of
 from stochfric_mb.effects import make_effect
+from stochfric_mb.errors import InputError
 from stochfric_mb.measurement import Dataset, Run
 from stochfric_mb.scenario import any_scenario_from_dict
 from tests.discovery.joints.test_parts import coulomb, pair
@@ -32,6 +33,14 @@ def test_the_stated_model_has_the_effects_of_the_mean_friction_alone():
     assert source.stated_delay == pytest.approx(0.002)
     assert (model.law, model.load) == (dataset.scenario.law, source.places[""])
     assert model.level == (dataset.scenario.law.mu_k, np.inf)  # nothing is said of how well it is known
+
+
+def test_a_stated_delay_in_milliseconds_is_refused():
+    """It ended in an error that asked for swapped columns: friction brought in energy."""
+    dataset = pair(coulomb)
+    late = dataclasses.replace(dataset.scenario, effects=(make_effect("sensor_delay", delay=8.0),))
+    with pytest.raises(InputError, match=r"sensor_delay is late by 8 s, more than 12\.5 % of the shortest run \(7\.999 s\)"):
+        source_of(dataclasses.replace(dataset, scenario=late))
 
 
 def test_the_conditions_of_a_balance_are_those_at_its_centres():

@@ -76,7 +76,7 @@ def late_motion(place: PlaceOutcome) -> list[EffectEstimate]:
     first = "position" if timing.seconds > 0.0 else "driving force"
     text = (
         f"The {first}{in_place(place)} comes {1e3 * abs(timing.seconds):.1f} ms late in the record; this is compensated before "
-        "friction is judged, and explains more than effects do without it."
+        "friction is judged, and explains more than effects do without it, numbers counted."
     )
     return [_late(timing, text)]
 
