@@ -35,7 +35,7 @@ def source_of(dataset: Dataset) -> Balances:
 
 def _require_short_delay(dataset: Dataset) -> None:
     """Raise an error where a stated delay leaves too little of a run."""
-    shortest = min(float(np.ptp(run.time)) for run in dataset.runs)
+    shortest = min((float(np.ptp(run.time)) for run in dataset.runs), default=np.inf)  # a plan has no runs yet
     for effect in getattr(dataset.scenario, "effects", ()):
         if abs(effect.late) > SHORT_RUN * shortest:
             raise InputError(
